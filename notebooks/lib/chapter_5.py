@@ -1,7 +1,7 @@
 """The claims behind the two conclusions of the thesis (section 5.1), and the verdicts that other pages have saved.
 
-1. Each conclusion rests on some claims, and claims on other worlds and agents on none; all others are the ground of
-   both.
+1. Each conclusion rests on some claims about agents; all others about agents are the ground of both. Claims that are
+   not about agents are counted apart.
 2. A claim that no page has judged has no row. One sentence says which these are, and how to have them judged.
 
 Records are as `lib.shared.report.load` returns them.
@@ -13,15 +13,15 @@ from lib.shared.report import CALIBRATED, LETTER
 from lib.shared.wording import filled, table
 from lib.study import multiverse_figures
 from neorl.drawing.style import axes_or_new
-from neorl.evidence.statements import CLAIMS, STATEMENTS
+from neorl.evidence.statements import AGENTS, CLAIMS, STATEMENTS
 from neorl.evidence.verdict import VERDICTS
 
-SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "A9", "B1", "B2", "B3", "B4", "B6", "T6", "T9")
+SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "A9", "A11", "B1", "B2", "B3", "B4", "B6", "T6")
 SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
-BEYOND = ("C5",)  # judged by the pages beyond the thesis
-GROUND = tuple(name for name in CLAIMS if name not in SUPERPOSITION + SEPARATION + BEYOND)
+GROUND = tuple(name for name in AGENTS if name not in SUPERPOSITION + SEPARATION)
+APART = tuple(name for name in CLAIMS if name not in AGENTS)
 GROUPS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION, "What both rest on": GROUND,
-          "Beyond the thesis": BEYOND}
+          "Counted apart": APART}
 
 
 def verdicts(record):

@@ -186,18 +186,19 @@ def test_some_groups_suffice_for_some_claims(results, groups, names):
     assert set(judge({key: results[key] for group in groups for key in GROUPS[group]})) == names
 
 
-def claim(value, outcome="not reproduced", is_open=False, name="C2"):
-    return Claim(name, Estimate(value, value - 0.1, value + 0.1), "", 4, outcome, is_open)
+def claim(value, outcome="contradicted", name="C2"):
+    return Claim(name, Estimate(value, value - 0.1, value + 0.1), {}, 4, outcome)
 
 
 def test_claims_are_counted_in_their_order():
-    cheap = [{"C2": claim(0.3, "reproduced"), "A6": claim(1)}, {"C2": claim(0.05, "partly", True), "A6": claim(1)},
+    cheap = [{"C2": claim(0.3, "reproduced"), "A6": claim(1)}, {"C2": claim(0.05, "undecided"), "A6": claim(1)},
              {"C2": claim(-1), "A6": claim(1)}, {"C2": claim(0, "not testable"), "A6": claim(1)}]
     found = multiverse.by_claim(cheap, [{"A2": claim(2, "reproduced")}])
     assert list(found) == ["A2", "A6", "C2"] and found["C2"] == [each["C2"] for each in cheap]
     counts = multiverse.shares(found)
-    assert counts["C2"] == {"reproduced": 1, "undecided": 1, "untestable": 1, "readings": 4}
-    assert counts["A2"] == {"reproduced": 1, "undecided": 0, "untestable": 0, "readings": 1}
+    assert counts["C2"] == {"reproduced": 1, "partly": 0, "contradicted": 1, "undecided": 1, "not testable": 1,
+                            "readings": 4}
+    assert counts["A2"]["reproduced"] == sum(counts["A2"][kind] for kind in multiverse.OUTCOMES) == 1
     assert [multiverse.reproduced(each) for each in cheap] == [["C2"], [], [], []]
 
 
@@ -238,7 +239,7 @@ def made_up():
     readings = multiverse.design(128)
     values = [WITHIN["discount"].place(rule.discount) + 0.5 * (rule.credit == "happened")
               for rule in (reading.learning for reading in readings)]
-    return readings, [claim(value, "reproduced" if value > 1 else "not reproduced") for value in values]
+    return readings, [claim(value, "reproduced" if value > 1 else "contradicted") for value in values]
 
 
 def test_support_counts_the_claims_that_hold_at_each_level(made_up):

@@ -35,7 +35,9 @@ def contrast(first, second):
 
 
 def test_every_verdict_has_a_mark_whose_colour_is_legible_on_all_grounds():
-    assert [marks.symbol(verdict) for verdict in (*VERDICTS, report.NOT_COMPUTED)] == ["●", "◐", "○", "◇", "◇", "◇"]
+    symbols = [marks.symbol(verdict) for verdict in (*VERDICTS, report.NOT_COMPUTED)]
+    assert symbols == ["●", "◐", "○", "?", "◇", "∎", "∃", "◇", "◇"]  # apart by shape, but for those without a finding
+    assert "○\u00a0contradicted, ?\u00a0undecided (more runs would tell), ◇" in marks.legend()
     styled = dict(re.findall(r"\n\.(verdict-[\w-]+) \{\n  color: var\(--([\w-]+)\);", STYLE_SHEET))
     assert styled.keys() == {mark.css for mark in marks.MARKS.values()}
     found = re.findall(r"--(verdict-[\w-]*|link[\w-]*): (#[0-9a-f]{6});", STYLE_SHEET)
@@ -47,16 +49,19 @@ def test_every_verdict_has_a_mark_whose_colour_is_legible_on_all_grounds():
 
 
 def claims(runs=10, full_length=True, **verdicts):
-    return [Claim(name, Estimate(0.1, 0.05, 0.2), {}, runs, verdict, False, full_length)
+    return [Claim(name, Estimate(0.1, 0.05, 0.2), {}, runs, verdict, full_length)
             for name, verdict in verdicts.items()]
 
 
 def test_a_box_has_verdicts_by_reading_with_links_or_says_that_there_are_none():
-    judged = {"calibrated": claims(A2="reproduced", A3="partly", A4="reproduced"), "": claims(C1="not testable")}
+    judged = {"calibrated": claims(A2="reproduced", A3="partly", A4="reproduced"),
+              "": claims(C1="not testable", T9="partly", B5="refuted by proof", C2="undecided")}
     calibrated, nameless = opening.found(judged).split("\n\n")[2:4]
     names = re.findall(r'<a href="../book/claims.md#claim-\w+" title="[^"]+">(\w+)</a>', calibrated)
     assert calibrated.startswith("Calibrated: ") and names == ["A2", "A4", "A3"]
-    assert "C1</a> not testable, because the agents learned too little" in nameless
+    assert re.sub("<[^>]+>|\u00a0", "", nameless) == (
+        "?C2 undecided (more runs would tell); ◇C1 not testable (the agents learned too little). "
+        "Counted apart: ∎B5 refuted by proof. Beside the claims: ◐T9 partly")
     assert opening.found({"calibrated": [], "": []}) == ""
 
 

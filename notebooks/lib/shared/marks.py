@@ -1,6 +1,7 @@
 """The display of verdicts, the same everywhere: a symbol, on pages also a colour, but never colour alone.
 
-The colours are set by classes in the book's style sheet, for light pages and for dark ones.
+The colours are set by classes in the book's style sheet, for light pages and for dark ones. What speaks against a claim
+has one colour, what decides nothing is grey.
 """
 
 from typing import NamedTuple
@@ -19,17 +20,27 @@ class Mark(NamedTuple):
 
 NONE = Mark("◇", "verdict-none")  # not a dash, which a number turns into a minus sign
 MARKS = dict(zip(VERDICTS, (Mark("●", "verdict-reproduced"), Mark("◐", "verdict-partly"),
-                            Mark("○", "verdict-not-reproduced"), NONE, NONE))) | {NOT_COMPUTED: NONE}
+                            Mark("○", "verdict-contradicted"), Mark("?", "verdict-none"), NONE,
+                            Mark("∎", "verdict-contradicted"), Mark("∃", "verdict-contradicted"), NONE), strict=True)
+             ) | {NOT_COMPUTED: NONE}
+REASONS = {"undecided": "more runs would tell", "not testable": "the agents learned too little"}
+DECIDED = {True: "✓", False: "✗", None: "?"}  # whether an interval is as a rule asks, see `Bounds.decide`
 
 
 def symbol(verdict: str) -> str:
-    """The symbol of a verdict: ● reproduced, ◐ partly, ○ not reproduced, ◇ anything else."""
+    """The symbol of a verdict."""
     return MARKS[verdict].symbol
 
 
 def leads(verdict: str) -> bool:
     """Whether a verdict's symbol stands before a number: with too few runs, the number stands alone."""
     return verdict not in ("no verdict", NOT_COMPUTED)
+
+
+def legend(verdicts=VERDICTS[:-1]) -> str:
+    """The symbols of some verdicts with their meaning: "● reproduced, …"."""
+    return ", ".join(f"{symbol(verdict)}\u00a0{verdict}" + (f" ({REASONS[verdict]})" if verdict in REASONS else "")
+                     for verdict in verdicts)
 
 
 def html(verdict: str) -> str:

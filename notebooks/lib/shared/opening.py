@@ -5,12 +5,11 @@ With too few runs for verdicts, or too short ones, the box says so instead.
 
 from html import escape
 
-from lib.shared.marks import html
-from neorl.evidence.statements import STATEMENTS
+from lib.shared.marks import REASONS, html
+from neorl.evidence.statements import AGENTS, CLAIMS, STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
 CLAIMS_PAGE = "../book/claims.md"  # from a notebook; the build makes it the built page
-REASONS = {"not testable": ", because the agents learned too little"}
 
 
 def found(judged):
@@ -32,17 +31,17 @@ def found(judged):
 def _line(reading, found):
     """One reading's verdicts, each with the claims that have it: "Calibrated: ● A2, A7 reproduced; ◐ A3 partly".
 
-    Demonstrations follow the claims.
+    Claims that are not about agents follow the others, and then demonstrations.
     """
-    groups = {False: [], True: []}
-    for demonstration, verdict in sorted({(STATEMENTS[name].demonstration, each) for name, each in found.items()},
-                                         key=lambda group: (group[0], VERDICTS.index(group[1]))):
-        names = [link(name) for name, each in found.items()
-                 if (STATEMENTS[name].demonstration, each) == (demonstration, verdict)]
-        groups[demonstration].append(f"{html(verdict)}\u00a0{', '.join(names)} {verdict}{REASONS.get(verdict, '')}")
-    claims, beside = map("; ".join, groups.values())
-    beside = f"Beside the claims: {beside}" if beside else ""
-    return f"{reading.capitalize()}{': ' if reading else ''}{'. '.join(filter(None, [claims, beside]))}"
+    groups = {"": [], "Counted apart: ": [], "Beside the claims: ": []}
+    for title, some in zip(groups, (AGENTS, CLAIMS, STATEMENTS)):
+        of_group = {name: found.pop(name) for name in [*found] if name in some}
+        for verdict in sorted({*of_group.values()}, key=VERDICTS.index):
+            names = ", ".join(link(name) for name, each in of_group.items() if each == verdict)
+            reason = f" ({REASONS[verdict]})" if verdict in REASONS else ""
+            groups[title].append(f"{html(verdict)}\u00a0{names} {verdict}{reason}")
+    lines = [f"{title}{'; '.join(verdicts)}" for title, verdicts in groups.items() if verdicts]
+    return f"{reading.capitalize()}{': ' if reading else ''}{'. '.join(lines)}"
 
 
 def link(name, page=CLAIMS_PAGE):

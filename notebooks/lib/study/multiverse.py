@@ -2,8 +2,7 @@
 
 1. A *reading* fixes every open choice (`neorl.evidence.reading`); each choice has a prior (`lib.shared.priors`).
 2. A design is a scrambled Sobol sequence through the priors: any power of two of its readings fills the space.
-3. A claim *holds* under a reading if its verdict is "reproduced", is *undecided* if its intervals leave room for it,
-   and *fails* otherwise, also if agents have learned nothing to test it by.
+3. The `OUTCOMES` of a claim under readings are its verdicts, whatever the number of runs.
 4. The importance of choices for a claim is estimated from `ENOUGH` readings or more.
 5. The book's record of shares is about its own design: `FEWEST` readings or more, spread evenly within the text, each
    in the papers' own conditions for `STEPS` steps or more. Other runs are shown on the page and not recorded.
@@ -20,6 +19,7 @@ from neorl import checks
 from neorl.evidence.reading import TO_THE_LETTER, conditions, judge
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import Estimate, difference, estimate
+from neorl.evidence.verdict import VERDICTS
 from neorl.extras import require
 
 PARTS = 5  # into which a prior without levels is cut; the middle one contains the reading to the letter
@@ -27,6 +27,7 @@ ENOUGH = 32  # readings
 FEWEST, STEPS = 16, 30_000  # readings of the book's design, and steps of their runs at 50 steps per second
 CHEAP = ("layers", "modal", "networks", "revaluing", "resolutions")  # groups of conditions
 EXPENSIVE = ("single", "pace")  # for A1 to A5, and for B4
+OUTCOMES = VERDICTS[:5]  # of claims about agents
 PREDICTED = 0.1  # the least R² at which choices count as predicting the number of a claim
 
 
@@ -78,11 +79,6 @@ def minutes(found, key):
     return " to ".join(dict.fromkeys(f"{end:.3g}" for end in (min(lasting), max(lasting))))
 
 
-def outcome(claim):
-    """The outcome of a claim: "reproduced", "undecided" or "not reproduced"."""
-    return "reproduced" if claim.outcome == "reproduced" else "undecided" if claim.undecided else "not reproduced"
-
-
 def by_claim(*sweeps):
     """Claims by name, {name: [`Claim`, …]}, from sweeps, lists of {name: `Claim`}."""
     found = {name: [claims[name] for claims in judged] for judged in sweeps for name in judged[0]}
@@ -90,18 +86,14 @@ def by_claim(*sweeps):
 
 
 def shares(claims):
-    """Counts of readings for each claim: {name: {"reproduced", "undecided", "untestable", "readings"}}."""
-    counts = {}
-    for name, found in claims.items():
-        outcomes = [outcome(claim) for claim in found]
-        counts[name] = {"reproduced": outcomes.count("reproduced"), "undecided": outcomes.count("undecided"),
-                        "untestable": sum(claim.outcome == "not testable" for claim in found), "readings": len(found)}
-    return counts
+    """Counts of readings for each claim: {name: {each of `OUTCOMES`, "readings"}}."""
+    return {name: {kind: sum(claim.outcome == kind for claim in found) for kind in OUTCOMES} | {"readings": len(found)}
+            for name, found in claims.items()}
 
 
 def reproduced(claims):
     """The names of the claims that are reproduced, of {name: `Claim`}."""
-    return [name for name, claim in claims.items() if outcome(claim) == "reproduced"]
+    return [name for name, claim in claims.items() if claim.outcome == "reproduced"]
 
 
 class Support(NamedTuple):

@@ -12,19 +12,23 @@ from scipy.stats import spearmanr
 
 from lib.shared.priors import WITHIN
 from lib.shared.style import FILL, mark
-from lib.study.multiverse import outcome
 from neorl.drawing.style import AGENT, INK, RED, SMALL, TEXT, axes_or_new, width_of_figures
 from neorl.evidence.statements import STATEMENTS
 
-COLOURS = {"reproduced": AGENT, "undecided": RED, "not reproduced": INK}
-UNDECIDED = {"facecolor": (RED, FILL), "edgecolor": RED, "linewidth": 1}  # of bars
-BARS = {"reproduced": {"color": AGENT}, "undecided": UNDECIDED,
-        "not reproduced": {"facecolor": "none", "edgecolor": INK}}
+GREY = "#8c8c8c"
+# Each verdict has a fill and a marker of its own; agents that have learned too little leave the end of a bar empty.
+BARS = {"reproduced": {"facecolor": AGENT, "edgecolor": AGENT},
+        "partly": {"facecolor": (AGENT, FILL), "edgecolor": AGENT},
+        "undecided": {"facecolor": (GREY, FILL), "edgecolor": GREY, "hatch": "////"},
+        "contradicted": {"facecolor": (RED, FILL), "edgecolor": RED},
+        "not testable": {"facecolor": "none", "edgecolor": "none"}}
+POINTS = {"reproduced": (AGENT, "o"), "partly": (AGENT, "P"), "undecided": (GREY, "D"), "contradicted": (RED, "."),
+          "not testable": (INK, "_")}
 DIAMOND = {"color": INK, "marker": "D", "markersize": 6, "linestyle": "none", "markeredgecolor": "white",
            "markeredgewidth": 0.8}  # the edge sets it off from bars
-OUTCOMES = {"reproduced": "o", "undecided": "D", "not reproduced": "."}  # markers
 SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"])
 ROW = 0.2  # inches
+SHOWN = ("reproduced", "undecided", "contradicted")  # beside verdicts
 LEADING = 6  # choices below a specification curve
 
 
@@ -38,7 +42,7 @@ def draw_outcomes(claims):
     for axes, size, names in zip(grid, sizes, panels):
         left = np.zeros(len(names))
         for kind, look in BARS.items():
-            count = np.array([[outcome(claim) for claim in claims[name]].count(kind) for name in names])
+            count = np.array([sum(claim.outcome == kind for claim in claims[name]) for name in names])
             axes.barh(range(len(names)), count, 0.6, left=left, label=kind, **look)
             left += count
         axes.set_yticks(range(len(names)), names, fontsize=10)
@@ -46,8 +50,9 @@ def draw_outcomes(claims):
         axes.xaxis.get_major_locator().set_params(integer=True)
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
-    figure.legend(*grid[0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False,
-                  fontsize=SMALL, labelcolor=TEXT)
+    bars, labels = grid[0].get_legend_handles_labels()
+    figure.legend(bars[:-1], labels, loc="outside upper center", ncols=4, frameon=False, fontsize=SMALL,
+                  labelcolor=TEXT)
 
 
 def draw_specification(readings, claims, name):
@@ -63,9 +68,9 @@ def draw_specification(readings, claims, name):
     figure = plt.figure(figsize=(width_of_figures(), 2.6 + below), layout="constrained")
     curve, strips = panels = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, below))
     order = _curve(curve, claims[name], name)
-    outcomes = [outcome(claim) for claim in claims[name]]
-    handles = [Line2D([], [], linestyle="none", marker=OUTCOMES[kind], markersize=5, color=COLOURS[kind],
-                      label=f"{kind} {outcomes.count(kind)}") for kind in COLOURS]
+    outcomes = [claim.outcome for claim in claims[name]]
+    handles = [Line2D([], [], linestyle="none", marker=marker, markersize=5, color=colour,
+                      label=f"{kind} {outcomes.count(kind)}") for kind, (colour, marker) in POINTS.items()]
     curve.legend(handles=handles, frameon=False, labelcolor=TEXT, fontsize=SMALL, handlelength=0.6, ncols=3,
                  loc="lower center", bbox_to_anchor=(0.5, 1.0))
     curve.tick_params(labelbottom=False)
@@ -105,18 +110,18 @@ def _curve(axes, claims, name):
     low, high = _limits(here[:, 0], borders)
     at, value = np.arange(len(order)), here[order, 0]
     bottom, top = np.clip(np.nan_to_num(here[order, 1:], nan=low, posinf=high, neginf=low), low, high).T
-    outcomes = np.array([outcome(claims[i]) for i in order])
+    outcomes = np.array([claims[i].outcome for i in order])
     within = (value >= low) & (value <= high)
-    for kind, colour in COLOURS.items():
+    for kind, (colour, shape) in POINTS.items():
         of_kind = outcomes == kind
         axes.vlines(at[of_kind], bottom[of_kind], top[of_kind], color=colour, alpha=0.3, linewidth=1)
-        for places, heights, marker in ((of_kind & within, value, OUTCOMES[kind]),
+        for places, heights, marker in ((of_kind & within, value, shape),
                                         (of_kind & (value > high), np.full(len(at), high), "^"),
                                         (of_kind & (value < low), np.full(len(at), low), "v"),
                                         (of_kind & np.isnan(value), np.full(len(at), low), "x")):
             if places.any():  # an empty unclipped artist would be as large as the figure
                 axes.plot(at[places], heights[places], linestyle="none", marker=marker, color=colour, clip_on=False,
-                          markersize=2.5 if marker in OUTCOMES.values() else 4)
+                          markersize=2.5 if marker == shape else 4)
     for border in borders:
         axes.axhline(border, color=INK, linewidth=0.8, linestyle="--")
     margin = 0.06 * (high - low)
@@ -141,12 +146,12 @@ def draw_standing(record, names):
     for row, name in enumerate(names):
         share = record["shares"].get(name)
         if share:
-            holds, undecided = (share[kind] / share["readings"] for kind in ("reproduced", "undecided"))
-            axes.barh(row, holds, 0.55, color=COLOURS["reproduced"])
+            ends = np.cumsum([0, *(share[kind] / share["readings"] for kind in SHOWN)])
+            for kind, left, right in zip(SHOWN, ends, ends[1:]):
+                if right > left:
+                    axes.barh(row, right - left, 0.55, left=left, **BARS[kind])
             axes.annotate(f"{share['reproduced']} of {share['readings']}", (1, row), xytext=(9, 0),
                           textcoords="offset points", fontsize=SMALL, va="center")
-            if undecided:
-                axes.barh(row, undecided, 0.55, left=holds, **UNDECIDED)
             if share.get("measured"):
                 axes.plot(share["agrees"] / share["measured"], row, **DIAMOND, clip_on=False)
         else:
@@ -157,9 +162,9 @@ def draw_standing(record, names):
     axes.set(xlim=(0, 1), ylim=(len(names) - 0.4, -0.6))
     axes.tick_params(axis="y", length=0, pad=8)  # a diamond at 0 reaches beyond the axis
     axes.spines["left"].set_visible(False)
-    bars = [Rectangle((0, 0), 1, 1, **look) for look in (BARS["reproduced"], UNDECIDED)]
-    axes.figure.legend([*bars, Line2D([], [], **DIAMOND)], ["reproduced", "undecided", "agrees, in long runs"],
-                       loc="outside upper center", ncols=3, frameon=False, fontsize=SMALL, labelcolor=TEXT, borderpad=0)
+    bars = [Rectangle((0, 0), 1, 1, **BARS[kind]) for kind in SHOWN]
+    axes.figure.legend([*bars, Line2D([], [], **DIAMOND)], [*SHOWN, "agrees, in long runs"], loc="outside upper center",
+                       ncols=4, frameon=False, fontsize=SMALL, labelcolor=TEXT, borderpad=0)
 
 
 def draw_importance(importance):
