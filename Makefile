@@ -8,7 +8,8 @@
 # make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
 # make fuzz   try random kernels of a user's that write and return wild values; SETTINGS=1000 of them
 # make lab    open the notebooks in JupyterLab, which saves pages without outputs
-# make readme write the claims of the last build into the README
+# make record record the claims of the last build, with RUNS=100, as book/record.json, which the book and README show
+# make readme write the recorded claims into the README
 # make bench  measure the speed of the kernels
 # make wheel build the wheel to publish, dist/*.whl, which carries the kernels as WebAssembly modules
 # make clean  remove all that these made, and nothing else
@@ -46,7 +47,7 @@ page = $(1:%=$(CHAPTERS)/%.ipynb)
 .DEFAULT_GOAL := book
 # Files that are replaced only by complete ones, so make need not remove them when it is interrupted.
 .PRECIOUS: $(HTML) $(call page,$(NAMES))
-.PHONY: book test package deep exact pages verify fuzz lab readme bench wheel clean FORCE
+.PHONY: book test package deep exact pages verify fuzz lab record readme bench wheel clean FORCE
 
 book: .venv/ready
 	@$(MAKE) --no-print-directory --keep-going --jobs=$(JOBS) $(HTML)
@@ -69,7 +70,7 @@ $(CHAPTERS)/.parameters: FORCE
 	@echo "$(RUNS) $(STEPS)" | cmp -s - $@ || echo "$(RUNS) $(STEPS)" > $@
 
 $(CHAPTERS)/claims-table.md: $(call page,$(TOGETHER) $(filter $(NAMES),$(TIMED) $(CONCLUSION))) $(wildcard book/*.py) \
-    book/rules.toml book/_toc.yml
+    book/rules.toml book/_toc.yml $(wildcard book/record.json)
 	@$(BIN)/python book/tables.py
 
 # Readers of the last book have it until the next is complete.
@@ -111,6 +112,9 @@ lab: .venv/ready
 	$(BIN)/jupyter lab --ServerApp.root_dir=. --LabApp.default_url=/lab/tree/notebooks \
 	    --ContentsManager.pre_save_hook=lib.shared.saving.keep_source \
 	    $(if $(filter 0,$(shell id -u)),--allow-root) $(ARGS)
+
+record: .venv/ready
+	@$(BIN)/python book/record.py
 
 readme: .venv/ready
 	$(BIN)/python book/readme.py

@@ -1,78 +1,116 @@
 """The page of all claims, and what the first page says of them, from the records of `lib.shared.report`.
 
-1. A strip with a square for each claim and a tally come first, then a line for each claim: its number in the thesis and
+1. The headline counts the claims about agents, and apart from them those that a proof or a count settles, that are
+   about this book's code, or that report attempts. It is the same wherever it stands.
+2. A strip with a square for each claim and a tally come next, then a line for each claim: its number in the thesis and
    here, and the verdict. A click opens what the verdict rests on.
-2. Pages are MyST Markdown. The strip and the lines are HTML, since they have a shape of their own.
+3. All of it shows the committed record (`record.py`). A build says in a sentence how its own verdicts compare.
+4. Pages are MyST Markdown. The strip and the lines are HTML, since they have a shape of their own.
 """
 
 from collections import Counter
-from functools import partial
 from html import escape
 
 from lib.shared import marks, report, wording
-from lib.shared.opening import anchor, link
-from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
-from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
+from lib.shared.opening import anchor
+from lib.shared.priors import WITHIN
+from lib.study.calibration_targets import CLAIMS as FITTED
+from neorl.evidence.reading import TO_THE_LETTER, Reading
+from neorl.evidence.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS
+from neorl.evidence.verdict import RUNS_FOR_A_VERDICT
 
-SHARES = ("Agree, in long runs", "Reproduce it, in short runs", "Undecided, in short runs")
+SHARES = {"reproduced": "Reproduce it, in short runs", "undecided": "Undecided, in short runs",
+          "contradicted": "Contradict it, in short runs"}
+# Verdicts of a build that do not contradict the record, in words.
+OPEN = {"undecided": "undecided"} | dict.fromkeys(("no verdict", report.NOT_COMPUTED), "without a verdict")
 CHAPTERS = {"A": "Paper A: maps of one space", "B": "Paper B: modalities", "C": "Paper C: networks of desires",
             "T": "The thesis as a whole"}
+APART = tuple(name for name in CLAIMS if name not in AGENTS)
+KINDS = {"proof": ("Decided by proof", ""), "report": ("The author’s report", ""),  # headings, and words in a sentence
+         "counting": ("Decided by counting", " (by counting)"), "code": ("This book’s code", " (this book’s code)")}
 
 
-def page(record):
-    """The strip, the tally and the claims, in MyST Markdown. record: as `report.load` returns it."""
-    parts = [strip(record), tally(record)]
-    groups = {title: [name for name in CLAIMS if name[0] == letter] for letter, title in CHAPTERS.items()}
+def page(record, build):
+    """The strips, the tallies and the claims, in MyST Markdown. record, build: see `headline` and `beside`."""
+    parts = [f"{headline(record)} {beside(record, build)}", strip(record, AGENTS),
+             tally(record, AGENTS, "claims about agents"), strip(record, APART),
+             tally(record, APART, "claims counted apart")]
+    groups = {title: [name for name in AGENTS if name[0] == letter] for letter, title in CHAPTERS.items()}
+    groups |= {f"Counted apart: {title[0].lower()}{title[1:]}": _of_kind(kind) for kind, (title, _) in KINDS.items()}
     for title, names in (groups | {"Beside the claims: demonstrations": DEMONSTRATIONS}).items():
         parts += [f"## {title}", *(_claim(record, name) for name in names)]
     return "\n\n".join(parts) + "\n"
 
 
 def front(record):
-    """What was found, in a sentence, as HTML for the first page. record: as `report.load` returns it."""
-    return f'<p class="result">{sentence(record, partial(link, page="claims.html"))}</p>\n'
+    """What was found, as HTML for the first page. record: see `headline`."""
+    return f'<p class="result">{headline(record)}</p>\n'
 
 
-def squares(record):
-    """The strip of claims and the meaning of its symbols, as HTML for the first page. record: as in `front`."""
-    legend = " · ".join(f"{marks.html(verdict)} {verdict}" for verdict in counts(record))
-    return f'{strip(record, "claims.html")}\n<p>{legend}</p>\n'
+def squares(record, build):
+    """The strips of claims, the meaning of their symbols, and how a build compares, as HTML for the first page."""
+    legend = " · ".join(f"{marks.html(verdict)}\u00a0{_explained(verdict)}" for verdict in counts(record, CLAIMS))
+    strips = [strip(record, some, "claims.html") for some in (AGENTS, APART)]
+    return "\n".join([*strips, f"<p>{legend}</p>", f"<p>{beside(record, build)}</p>" * (build is not record)]) + "\n"
 
 
-def counts(record):
-    """The number of claims with each verdict: {verdict: count}, without verdicts that no claim has."""
-    found = [report.verdict(record, name) for name in CLAIMS]
-    return {verdict: found.count(verdict) for verdict in marks.MARKS if verdict in found}
+def headline(record):
+    """What was found, in a few sentences. record: as `report.load` returns it, or committed."""
+    by_verdict = counts(record, AGENTS)
+    if not {*by_verdict} - {"no verdict", report.NOT_COMPUTED}:
+        return (f"This book judges the thesis’s {len(AGENTS)} claims about agents. Verdicts need {RUNS_FOR_A_VERDICT} "
+                "runs of each condition, and this build has fewer.")
+    held = {name for name in AGENTS if report.verdict(record, name) == "reproduced"}
+    fitted, others = ([name for name in AGENTS if (name in FITTED) == used] for used in (True, False))
+    letter, book = TO_THE_LETTER.choices, Reading().choices
+    departing = sum(book[name] != letter[name] for name in WITHIN)
+    to_the_letter = counts({"claims": record["letter"]}, AGENTS).get("reproduced", 0)
+    return (f"Of the thesis’s {len(AGENTS)} claims about agents, {_listed(by_verdict)} ({runs(record)} runs of each "
+            f"condition). {len(fitted)} of the {len(AGENTS)} were used to choose the reading, in which "
+            f"{departing} of {len(WITHIN)} open choices depart from the letter: {len(held & {*fitted})} of these "
+            f"{len(fitted)} claims and {len(held & {*others})} of the other {len(others)} are reproduced. To the "
+            f"letter: {to_the_letter} reproduced. {_apart(record)}")
 
 
-def sentence(record, named=str):
-    """How many claims, and which, are reproduced, with the number of runs: a sentence. named: a name to its text."""
-    runs = Counter(found["runs"] for found in record["claims"].values()).most_common(1)
-    groups = {verdict: [named(name) for name in CLAIMS if report.verdict(record, name) == verdict]
-              for verdict in VERDICTS[:3]}
-    if not any(groups.values()):
-        return (f"This book judges {len(CLAIMS)} claims of P. R. Leikanger’s thesis. Verdicts need "
-                f"{RUNS_FOR_A_VERDICT} runs of each condition, and this build has fewer.")
-    parts = [f"{len(names)} {verdict} ({', '.join(names)})" for verdict, names in groups.items() if names]
-    left = [named(name) for name in CLAIMS if report.verdict(record, name) not in groups]
-    parts += [f"{len(left)} not judged ({', '.join(left)})"] if left else []
-    return (f"We reran P. R. Leikanger’s thesis with {runs[0][0]} runs of each condition. Of its {len(CLAIMS)} claims "
-            f"we found {'; '.join(parts)}.")
+def beside(record, build):
+    """How the verdicts of a build compare with the record, in a sentence; "" if the build is the record."""
+    if build is record:
+        return ""
+    here = {name: report.verdict(build, name) for name in CLAIMS}
+    different = {name: verdict for name, verdict in here.items() if verdict != report.verdict(record, name)}
+    groups = Counter(OPEN[verdict] for verdict in different.values() if verdict in OPEN)
+    parts = [f"{len(here) - len(different)} the same", *(f"{count} {verdict}" for verdict, count in groups.items())]
+    if others := [f"{name} {verdict}" for name, verdict in different.items() if verdict not in OPEN]:
+        parts.append(f"{len(others)} different ({', '.join(others)})")
+    return (f"Recorded on {record['date']} with commit {record['commit']}. This build, {runs(build)} runs: "
+            f"{', '.join(parts)}.")
 
 
-def tally(record):
-    """The number of claims with each verdict, as a line of Markdown."""
-    return f"{len(CLAIMS)} claims: " + " · ".join(f"{marks.html(verdict)} {count} {verdict}"
-                                                  for verdict, count in counts(record).items()) + "."
+def counts(record, names):
+    """The number of some claims with each verdict: {verdict: count}, without verdicts that none has."""
+    found = Counter(report.verdict(record, name) for name in names)
+    return {verdict: found[verdict] for verdict in marks.MARKS if found[verdict]}
 
 
-def strip(record, address=""):
-    """An HTML list with a square for each claim, its symbol in its colour, that links to the claim.
+def runs(record):
+    """The number of runs of most claims about agents, 0 if none was judged."""
+    found = Counter(record["claims"][name]["runs"] for name in AGENTS if name in record["claims"]).most_common(1)
+    return found[0][0] if found else 0
+
+
+def tally(record, names, what):
+    """The number of some claims with each verdict, as a line of Markdown. what: they are."""
+    return f"{len(names)} {what}: " + " · ".join(f"{marks.html(verdict)} {count} {_explained(verdict)}"
+                                                 for verdict, count in counts(record, names).items()) + "."
+
+
+def strip(record, names, address=""):
+    """An HTML list with a square for each of some claims, its symbol in its colour, that links to the claim.
 
     address: of the page of claims, relative to the page with the strip.
     """
     squares = []
-    for name in CLAIMS:
+    for name in names:
         verdict = report.verdict(record, name)
         mark, text = marks.MARKS[verdict], escape(f"{name}, {verdict}: {STATEMENTS[name].text}")
         squares.append(f'<li><a class="{mark.css}" href="{address}#{anchor(name)}" title="{text}" aria-label="{text}">'
@@ -80,12 +118,40 @@ def strip(record, address=""):
     return f'<ul class="claims-strip" aria-label="Verdict of each claim">{"".join(squares)}</ul>'
 
 
+def _of_kind(kind):
+    return [name for name in APART if STATEMENTS[name].kind == kind]
+
+
+def _apart(record):
+    """The verdicts on the claims that are not about agents, in a sentence."""
+    groups = {}
+    for kind, (_, words) in KINDS.items():
+        for name in _of_kind(kind):
+            groups.setdefault((words, report.verdict(record, name)), []).append(name)
+    parts = [f"{', '.join(names)}{words} {verdict}" for (words, verdict), names in groups.items()]
+    return f"Counted apart: {'; '.join(parts)}."
+
+
+def _listed(by_verdict):
+    """Counts in words: "11 are reproduced, 4 partly and 3 undecided"."""
+    parts = [f"{count} {verdict}" for verdict, count in by_verdict.items()]
+    first, *between = parts[:-1] or parts
+    count, verdict = first.split(" ", 1)
+    listed = ", ".join([f"{count} {'is' if count == '1' else 'are'} {verdict}", *between])
+    return listed + f" and {parts[-1]}" * (len(parts) > 1)
+
+
+def _explained(verdict):
+    return f"{verdict} ({marks.REASONS[verdict]})" if verdict in marks.REASONS else verdict
+
+
 def _claim(record, name):
     """A claim in a line, which opens to the sentence that is judged and all that its verdict rests on."""
     statement, found, verdict = STATEMENTS[name], record["claims"].get(name), report.verdict(record, name)
     numbers = f"Thesis: {escape(statement.thesis)}" + (f" · Here: {report.number(found)}" if found else "")
+    reason = f" <small>{marks.REASONS[verdict]}</small>" if verdict in marks.REASONS else ""
     cells = [f"<b>{name}</b>", f"{escape(statement.text)} <small>{numbers}</small>",
-             f"{marks.html(verdict)}\u00a0{report.decided(record, name)}"]
+             f"{marks.html(verdict)}\u00a0{verdict}{reason}"]
     line = "".join(f"<span>{cell}</span>" for cell in cells)
     return "\n\n".join([f'<details class="claim"><summary>{line}</summary>\n<div id="{anchor(name)}">',
                         f"“{statement.quotation}” ({statement.place}).", *_evidence(record, name),
@@ -101,8 +167,8 @@ def _evidence(record, name):
                      f"{{ref}}`this rule <{report.label(statement.rule)}>`.")
     if share:
         agrees = _share(share["agrees"], share["measured"]) if share.get("measured") else ""
-        parts.append(wording.table(SHARES, [[agrees, *(_share(share[each], share["readings"])
-                                                       for each in ("reproduced", "undecided"))]]))
+        parts.append(wording.table(["Agree, in long runs", *SHARES.values()],
+                                   [[agrees, *(_share(share[each], share["readings"]) for each in SHARES)]]))
     return parts
 
 

@@ -11,16 +11,18 @@ import ledger
 import rules
 from compute import CHAPTERS, ROOT, records
 from lib.shared import report
+from record import of_book
 
 from neorl.files import write_whole
 
 
 def of_claims(paths, chapters):
     """The texts to include, {name of the file: text}. paths: of records of claims. chapters: the folder of pages."""
-    record, toc = report.load(paths), (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
+    build, toc = report.load(paths), (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
+    record = of_book(build)
     return {"claims-rules.md": rules.page(), "claims-front.html": ledger.front(record),
-            "claims-squares.html": ledger.squares(record), "errata-table.md": report.errata(),
-            "contents.md": contents.pictures(toc, chapters), "claims-table.md": ledger.page(record)}
+            "claims-squares.html": ledger.squares(record, build), "errata-table.md": report.errata(),
+            "contents.md": contents.pictures(toc, chapters), "claims-table.md": ledger.page(record, build)}
 
 
 if __name__ == "__main__":

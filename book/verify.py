@@ -77,15 +77,21 @@ def conditions_kept():
 def compare(condition, k):
     """Recompute a run: its difference from the cached one, as text or None, and its number of bins."""
     result = store.load(condition)
-    rewards, hits = new_bins(condition.world, 1, condition.steps)
-    live(condition, k, rewards[0], hits[0])
-    same = (bits(result.rewards[k]) == bits(rewards[0])) & np.all(result.hits[k] == hits[0], axis=-1)
+    rewards, hits = recomputed(condition, k)
+    same = (bits(result.rewards[k]) == bits(rewards)) & np.all(result.hits[k] == hits, axis=-1)
     if same.all():
         return None, same.size
     first = int(np.argmin(same))
     return (f"{np.count_nonzero(~same)} of {same.size} bins differ, the first from {result.edges[first]:g} s on: kept "
             f"are {result.rewards[k, first]!r} and {result.hits[k, first].tolist()}, recomputed "
-            f"{rewards[0, first]!r} and {hits[0, first].tolist()}"), same.size
+            f"{rewards[first]!r} and {hits[first].tolist()}"), same.size
+
+
+def recomputed(condition, k):
+    """The rewards and hits in each bin of a run, computed alone: float32 (bins,) and int (bins, kinds)."""
+    rewards, hits = new_bins(condition.world, 1, condition.steps)
+    live(condition, k, rewards[0], hits[0])
+    return rewards[0], hits[0]
 
 
 def bits(rewards):

@@ -27,7 +27,8 @@ result = neorl.simulate(neorl.place_cells([3]), neorl.WaterWorld(), steps=10_000
 lines = "".join(f"<path d='M{{k}} 0V{{abs(paid):.0f}}'/>" for k, paid in enumerate(result.rewards.ravel()))
 print(f"{{result.totals.sum():.6f}}")"""
 DRAW = """SVG(f"<svg xmlns='http://www.w3.org/2000/svg' width='75pt' height='30pt'>{lines * 20}</svg>")"""
-FIND_SHARES = "report.save('assumptions', shares={'A2': {'reproduced': 1, 'undecided': 0, 'readings': 4}})"
+FIND_SHARES = """report.save('assumptions', shares={'A2': {'reproduced': 1, 'undecided': 0, 'contradicted': 3,
+                                                  'readings': 4}})"""
 CONCLUDE = """from lib.shared import report
 print(sorted(report.load()["shares"].items()))
 report.save("chapter_5")"""

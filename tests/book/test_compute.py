@@ -82,7 +82,7 @@ counter"""
 @pytest.mark.filterwarnings("ignore")
 def test_what_a_notebook_has_found_is_beside_its_page_and_in_the_table_of_all_claims(notebook, monkeypatch):
     change_last_cell(notebook, "from lib.shared import report\nreport.save('page', shares={'A2': "
-                               "{'reproduced': 1, 'undecided': 1, 'untestable': 0, 'readings': 4}})")
+                               "{'reproduced': 1, 'undecided': 1, 'contradicted': 2, 'readings': 4}})")
     compute.compute(notebook, {"runs": 3})
     written = tables.of_claims([compute.CHAPTERS / "page.claims.json"], compute.CHAPTERS)["claims-table.md"]
     assert "| 1 of 4 | 1 of 4 |" in written

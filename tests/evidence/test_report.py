@@ -60,20 +60,21 @@ def test_what_a_verdict_rests_on_is_its_sentence_and_the_numbers_of_both_reading
     assert lead.startswith("  | lead over Brownian motion | more than 0 | ✓\u00a00.05 [")
 
 
-def test_a_verdict_that_more_runs_might_change_is_undecided_and_every_number_has_a_mark():
-    found = Claim("C4", Estimate(1.6, 1.3, 1.9), {"D / C": (Estimate(1.6, 1.3, 1.9), Bounds(low=1.5)),
-                                                  "D": (Estimate(1, 0.9, 1.1), Bounds(high=0.5))}, 10, "partly", True)
-    kept = {"claims": report._kept([found]), "letter": {}}
-    assert report.decided(kept, "C4") == "partly, undecided"
-    assert [line.split("|")[3].split()[0] for line in report.numbers(kept, "C4").splitlines()[2:]] == ["?", "✗"]
-    assert report.decided({"claims": report._kept([replace(found, runs=2)])}, "C4") == "no verdict"
+def test_a_number_has_a_mark_if_it_decides_and_a_part_says_what_it_makes_of_the_claim():
+    numbers = {"D / C": (Estimate(1.6, 1.3, 1.9), Bounds(low=1.5), "asked"),
+               "D": (Estimate(1, 0.9, 1.1), Bounds(high=0.5, why="half"), "asked"),
+               "C": (Estimate(1, 0.9, 1.1), Bounds(high=2.0), "part"), "B": (Estimate(1, 0.9, 1.1), None, "shown")}
+    kept = {"claims": report._kept([Claim("C4", numbers["D"][0], numbers, 10, "partly")]), "letter": {}}
+    assert [line.split(" | ")[1:] for line in report.numbers(kept, "C4").splitlines()[2:]] == [
+        ["1.5 or more", "?\u00a01.60 [1.30, 1.90] |"], ["0.5 or less (half)", "✗\u00a01.00 [0.90, 1.10] |"],
+        ["partly if 2 or less", "✓\u00a01.00 [0.90, 1.10] |"], ["", "1.00 [0.90, 1.10] |"]]
 
 
 @pytest.fixture
 def record(cache_folder):
     report.save("paper_c", networks(), letter=networks(*paper_c()[::-1]))
-    report.save("alternatives", [replace(layers(runs=1)[0], name="C5")])
-    report.save("assumptions", shares={"C2": {"reproduced": 64, "undecided": 26, "untestable": 3, "readings": 256,
+    report.save("alternatives", [replace(layers(runs=1)[0], name=name) for name in ("A10", "C5")])
+    report.save("assumptions", shares={"C2": {"reproduced": 64, "undecided": 26, "contradicted": 128, "readings": 256,
                                                "agrees": 2, "measured": 40}})
     return report.load((cache_folder / "claims").iterdir())
 
@@ -86,7 +87,7 @@ def row(table, name):
 def test_all_that_is_kept_is_read_unless_files_are_named(record, cache_folder):
     (cache_folder / "claims" / "notes.txt").touch()
     assert report.load() == record
-    assert list(report.load([cache_folder / "claims" / "alternatives.json"])["claims"]) == ["C5"]
+    assert list(report.load([cache_folder / "claims" / "alternatives.json"])["claims"]) == ["A10", "C5"]
 
 
 def test_readings_are_drawn_beside_the_verdicts(record):
@@ -94,6 +95,6 @@ def test_readings_are_drawn_beside_the_verdicts(record):
     axes = plt.gca()
     assert [tick.get_text() for tick in axes.get_yticklabels()] == [
         "C2  reproduced", "C5  no verdict", "T5  not computed"]
-    assert [(bar.get_x(), bar.get_width()) for bar in axes.patches] == [(0, 0.25), (0.25, 26 / 256)]
+    assert [(bar.get_x(), bar.get_width()) for bar in axes.patches] == [(0, 0.25), (0.25, 26 / 256), (90 / 256, 0.5)]
     assert [each.get_text() for each in axes.texts] == ["64 of 256", *2 * ["not varied over readings"]]
     assert [line.get_xydata().tolist() for line in axes.lines] == [[[0.05, 0]]]

@@ -15,7 +15,7 @@ import numpy as np
 
 from lib.shared import wording
 from lib.shared.errata import ERRATA
-from lib.shared.marks import NOT_COMPUTED, leads, symbol
+from lib.shared.marks import DECIDED, NOT_COMPUTED, leads, legend, symbol
 from lib.shared.opening import link
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.statistics import Estimate
@@ -24,15 +24,15 @@ from neorl.files import cache_folder, write_whole
 
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
-LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, ◇ not testable (agents learned too little); without a symbol, no "
-          "verdict; *undecided*: more runs might show the claim. Numbers: the quantities in italics, with 95\u00a0% "
-          "intervals over runs. Intervals of times can lie below the time, since noise reaches a level early. A "
-          "claim's name leads to what its verdict rests on.")
+LEGEND = (f"{legend()}; without a symbol, no verdict. Numbers: the quantities in italics, with 95\u00a0% intervals "
+          "over runs. Intervals of times can lie below the time, since noise reaches a level early. A claim's name "
+          "leads to what its verdict rests on.")
 BESIDE = "Demonstrations of this book, not counted among the claims:"
 PARTS = ("claims", "letter", "shares")  # of a record
 CLAIMS_OF = {"alternatives": ("A10", "C5"), "chapter_2": ("H1",), "chapter_3": ("T3", "T4"), "chapter_4": ("T5", "T7"),
              "other_spaces": ("G1", "G2", "G3", "G4"), "paper_a": (*(f"A{n}" for n in range(1, 10)), "A11", "T9"),
              "paper_b": (*(f"B{n}" for n in range(1, 8)), "T1", "T2", "T6", "T8"), "paper_c": ("C1", "C2", "C3", "C4")}
+MISSING = None, "", "", ""  # a number under one reading that the other has not
 ONCE = {"T5"}  # judged under one reading beside claims that are judged under two
 
 
@@ -65,8 +65,8 @@ def save(page, claims=(), shares=None, letter=()):
 
     A record is complete: nothing is saved unless all claims of the page are judged, under both readings where there are
     two.
-    shares: {name of a claim: {"reproduced", "undecided", "readings"}}, counts of readings within the text in short
-    runs, with "agrees" and "measured" if there are counts at the papers' lengths too. A missing bound is null.
+    shares: {name of a claim: counts of readings within the text}, by verdict in short runs, with their sum "readings",
+    and with "agrees" and "measured" if there are counts at the papers' lengths too. A missing bound is null.
     """
     wanted, calibrated, literal = {*CLAIMS_OF.get(page, ())}, _names(claims), _names(letter)
     if calibrated != wanted or literal and literal != wanted - ONCE:
@@ -94,11 +94,6 @@ def verdict(record, name):
     return record["claims"].get(name, {"verdict": NOT_COMPUTED})["verdict"]
 
 
-def decided(record, name):
-    """The verdict on a claim, and whether it is undecided, as text."""
-    return verdict(record, name) + ", undecided" * record["claims"].get(name, {}).get("undecided", False)
-
-
 def extract(record, names):
     """Some claims of a record, as `load` returns it, as a Markdown table without its empty columns, and its legend."""
     head, rows = wording.filled(COLUMNS, [_cells(record, name) for name in names])
@@ -113,14 +108,15 @@ def evidence(record, names):
 
 
 def numbers(record, name):
-    """The numbers of a claim under both readings, with the bounds that its rule asks for, as a Markdown table or ""."""
+    """The numbers of a claim under both readings, with the bounds that its rule asks for, as a Markdown table or "".
+
+    A number has a mark if it decides: ✓, ✗ or ?. A part of the claim says so in its bounds.
+    """
     found = {reading: record[part][name] for reading, part in (("Here", "claims"), ("To the letter", "letter"))
              if name in record[part]}
-    asked = {what: asks for each in found.values() for what, (_, asks, _) in each["numbers"].items()}
-    rows = [[what, asks, *(each["numbers"][what][2] + number({"here": each["numbers"][what][0]})
-                           if what in each["numbers"] else
-                           number(each) if what == STATEMENTS[name].statistic else "" for each in found.values())]
-            for what, asks in asked.items()]
+    rules = {what: rule for each in found.values() for what, (_, rule, *_) in each["numbers"].items()}
+    rows = [[what, rule, *(_marked(*each["numbers"].get(what, MISSING)) for each in found.values())]
+            for what, rule in rules.items()]
     head = ["Number", "Rule", *(f"{reading}, {each['runs']} runs or more" for reading, each in found.items())]
     return wording.table(head, rows) if rows else ""
 
@@ -132,14 +128,20 @@ def label(rule):
 
 def _kept(claims):
     return {claim.name: {"here": _bounded(claim.here), "runs": claim.runs, "verdict": claim.verdict,
-                         "undecided": claim.undecided and claim.verdict == claim.outcome,
-                         "numbers": {what: [_bounded(found), *(_asked(found, bounds) if bounds else ("", ""))]
-                                     for what, (found, bounds) in claim.numbers.items()}} for claim in claims}
+                         "numbers": {what: [_bounded(found), *_decided(found, bounds, role)]
+                                     for what, (found, bounds, role) in claim.numbers.items()}} for claim in claims}
 
 
-def _asked(found, bounds):
-    mark = "✓" if bounds.hold(found) else "?" if bounds.allow(found) else "✗"
-    return f"{bounds}{bounds.why and f' ({bounds.why})'}", f"{mark}\u00a0"
+def _decided(found, bounds, role):
+    """The bounds of a number in words, its mark and its role; the first two are "" if it is only shown."""
+    if bounds is None:
+        return "", "", role
+    why = f" ({bounds.why})" if bounds.why else ""
+    return f"{'partly if ' if role == 'part' else ''}{bounds}{why}", DECIDED[bounds.decide(found)], role
+
+
+def _marked(found, _, mark, role):
+    return (f"{mark}\u00a0" if mark else "") + number({"here": found}) if role else ""
 
 
 def _names(claims):
@@ -154,7 +156,7 @@ def _cells(record, name):
     statement = STATEMENTS[name]
     return [f"**{link(name)}** {statement.text} <small>*{statement.statistic}*</small>", statement.thesis,
             *(_with_symbol(found["verdict"], number(found)) if (found := record[part].get(name)) else ""
-              for part in ("letter", "claims")), decided(record, name)]
+              for part in ("letter", "claims")), verdict(record, name)]
 
 
 def _with_symbol(verdict, text):

@@ -20,7 +20,7 @@ GREY = "#8c8c8c"
 BARS = {"reproduced": {"facecolor": AGENT, "edgecolor": AGENT},
         "partly": {"facecolor": (AGENT, FILL), "edgecolor": AGENT},
         "undecided": {"facecolor": (GREY, FILL), "edgecolor": GREY, "hatch": "////"},
-        "contradicted": {"facecolor": (RED, FILL), "edgecolor": RED},
+        "contradicted": {"facecolor": "none", "edgecolor": RED},
         "not testable": {"facecolor": "none", "edgecolor": "none"}}
 POINTS = {"reproduced": (AGENT, "o"), "partly": (AGENT, "P"), "undecided": (GREY, "D"), "contradicted": (RED, "."),
           "not testable": (INK, "_")}
@@ -51,7 +51,7 @@ def draw_outcomes(claims):
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
     bars, labels = grid[0].get_legend_handles_labels()
-    figure.legend(bars[:-1], labels, loc="outside upper center", ncols=4, frameon=False, fontsize=SMALL,
+    figure.legend(bars[:-1], labels[:-1], loc="outside upper center", ncols=4, frameon=False, fontsize=SMALL,
                   labelcolor=TEXT)
 
 
@@ -142,7 +142,7 @@ def draw_standing(record, names):
 
     Bars are from short runs, points from runs as long as the papers', where there are any.
     """
-    axes = axes_or_new(None, figsize=(width_of_figures(), 1.3 * ROW * len(names) + 0.7))
+    axes = axes_or_new(None, figsize=(width_of_figures(), 1.3 * ROW * len(names) + 0.9))
     for row, name in enumerate(names):
         share = record["shares"].get(name)
         if share:
@@ -164,7 +164,7 @@ def draw_standing(record, names):
     axes.spines["left"].set_visible(False)
     bars = [Rectangle((0, 0), 1, 1, **BARS[kind]) for kind in SHOWN]
     axes.figure.legend([*bars, Line2D([], [], **DIAMOND)], [*SHOWN, "agrees, in long runs"], loc="outside upper center",
-                       ncols=4, frameon=False, fontsize=SMALL, labelcolor=TEXT, borderpad=0)
+                       ncols=2, frameon=False, fontsize=SMALL, labelcolor=TEXT, borderpad=0)
 
 
 def draw_importance(importance):
