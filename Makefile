@@ -8,7 +8,7 @@
 # make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
 # make fuzz   try random kernels of a user's that write and return wild values; SETTINGS=1000 of them
 # make lab    open the notebooks in JupyterLab, which saves pages without outputs
-# make record record the claims of the last build, with RUNS=100, as book/record.json, which the book and README show
+# make record record the claims of the last build, with RUNS=100, which the book and README show from then on
 # make readme write the recorded claims into the README
 # make bench  measure the speed of the kernels
 # make wheel build the wheel to publish, dist/*.whl, which carries the kernels as WebAssembly modules

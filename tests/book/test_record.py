@@ -8,10 +8,11 @@ import record
 from hypothesis import given
 from hypothesis import strategies as st
 from lib.shared import report
+from lib.shared.marks import DECIDED
 
 from neorl.evidence.statements import AGENTS, STATEMENTS
 from neorl.evidence.statistics import Estimate
-from neorl.evidence.verdict import VERDICTS, judged
+from neorl.evidence.verdict import VERDICTS, judged, outcome
 from neorl.experiments.condition import source_digest
 
 CLAIM = {"here": [1.0, 0.5, 1.5], "runs": 100, "verdict": "undecided", "numbers": {}}
@@ -21,10 +22,8 @@ recorded = pytest.mark.skipif(not record.RECORD.exists(), reason="nothing is rec
 
 def explained(found):
     """The verdict that follows from the marks in the fold of a claim."""
-    marks = {kind: [mark for *_, mark, role in found["numbers"].values() if role == kind] for kind in ("asked", "part")}
-    if "✗" not in marks["asked"]:
-        return "undecided" if "?" in marks["asked"] else "reproduced"
-    return "partly" if "✓" in marks["part"] else "undecided" if "?" in marks["part"] else "contradicted"
+    truths = {mark: true for true, mark in DECIDED.items()}
+    return outcome({what: (truths.get(mark), role) for what, (*_, mark, role) in found["numbers"].items()})
 
 
 def unexplained(found):
@@ -53,9 +52,12 @@ def test_the_record_is_of_all_claims_and_its_folds_explain_its_verdicts():
 numbers = st.lists(st.integers(-8, 8), min_size=3, max_size=3).map(lambda each: Estimate(*sorted(each)))
 
 
-@given(st.sampled_from(AGENTS), numbers, st.dictionaries(st.sampled_from("abc"), numbers), numbers)
-def test_a_fold_explains_the_verdict_on_any_numbers(name, here, asked, shown):
-    found = report._kept([judged(name, here, 100, asked, {"shown": shown})])
+some = st.dictionaries(st.sampled_from("abc"), numbers)
+
+
+@given(st.sampled_from(AGENTS), numbers, some, some, numbers)
+def test_a_fold_explains_the_verdict_on_any_numbers(name, here, asked, part, shown):
+    found = report._kept([judged(name, here, 100, asked, {"shown": shown}, part)])
     assert unexplained({"claims": found, "letter": {}}) == {}
 
 

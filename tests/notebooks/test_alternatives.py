@@ -190,11 +190,11 @@ def experiment(**given):
 
 
 @pytest.mark.parametrize("given, verdicts", [
-    ({}, [True]), ({"n_creeps": 5}, [True]), ({"steps": 149_999}, [False]), ({"N_CREEPS": 4}, []),
-    ({"TO_THE_LETTER": Reading(place_gain=1.0)}, []),
-    ({"best_settings": lambda: SETTINGS | {"monolithic": SETTINGS["joint cells"]}}, [])])
-def test_the_claim_is_judged_only_of_the_page_s_own_contestants_and_board(given, verdicts):
-    assert [claim.full_length for claim in experiment(**given)["judged"]] == verdicts
+    ({}, {"C5": True, "A10": True}), ({"n_creeps": 5}, {"C5": True}), ({"steps": 149_999}, {"C5": False, "A10": False}),
+    ({"N_CREEPS": 4}, {"A10": True}), ({"TO_THE_LETTER": Reading(place_gain=1.0)}, {"A10": True}),
+    ({"best_settings": lambda: SETTINGS | {"monolithic": SETTINGS["joint cells"]}}, {"A10": True})])
+def test_claims_are_judged_only_of_the_page_s_own_contestants_and_boards(given, verdicts):
+    assert {claim.name: claim.full_length for claim in experiment(**given)["judged"]} == verdicts
 
 
 @pytest.mark.parametrize("steps, minutes", [(3_000, 1), (8_999, 2), (150_000, 50), (600_000, 200)])

@@ -40,9 +40,9 @@ def judge(results, earned):
     Learners count that ran as long as the agents, in as many runs or enough for a verdict.
     results: {number of creeps: {name: `Result`}} of agents. earned: the same with `Earned`, of all.
     """
-    if not {N_CREEPS, CREEPS_A} <= earned.keys():
-        return []
-    return [*_attempts(results[N_CREEPS], earned[N_CREEPS]), *_untrained(results[CREEPS_A], earned[CREEPS_A])]
+    rules = {N_CREEPS: _attempts, CREEPS_A: _untrained}
+    return [claim for creeps, rule in rules.items() if creeps in earned
+            for claim in rule(results[creeps], earned[creeps])]
 
 
 def _attempts(results, earned):
