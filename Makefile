@@ -8,7 +8,7 @@
 # make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
 # make fuzz   try random kernels of a user's that write and return wild values; SETTINGS=1000 of them
 # make lab    open the notebooks in JupyterLab, which saves pages without outputs
-# make record record the claims of the last build, with RUNS=100, which the book and README show from then on
+# make record record the claims of the last build, of RUNS=100, in the file that the book and the README show
 # make readme write the recorded claims into the README
 # make bench  measure the speed of the kernels
 # make wheel build the wheel to publish, dist/*.whl, which carries the kernels as WebAssembly modules
@@ -70,7 +70,7 @@ $(CHAPTERS)/.parameters: FORCE
 	@echo "$(RUNS) $(STEPS)" | cmp -s - $@ || echo "$(RUNS) $(STEPS)" > $@
 
 $(CHAPTERS)/claims-table.md: $(call page,$(TOGETHER) $(filter $(NAMES),$(TIMED) $(CONCLUSION))) $(wildcard book/*.py) \
-    book/rules.toml book/_toc.yml $(wildcard book/record.json)
+    book/rules.toml book/_toc.yml $(wildcard book/record.*)
 	@$(BIN)/python book/tables.py
 
 # Readers of the last book have it until the next is complete.

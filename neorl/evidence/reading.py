@@ -15,6 +15,7 @@ from neorl.agents.agent import Agent, Node
 from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
 from neorl.checks import OneOf
 from neorl.evidence import claims
+from neorl.evidence.statements import STATEMENTS
 from neorl.experiments.condition import Condition
 from neorl.worlds.waterworld import WaterWorld
 
@@ -189,7 +190,7 @@ def networks(reading: Reading) -> dict[str, Agent]:
 
 
 def judge(results):
-    """Judge the claims for which the results of a reading's conditions suffice: {name of the claim: `Claim`}.
+    """Judge the claims for which the results of a reading's conditions suffice: {name: `Claim`}, in their order.
 
     results: {key: `Result`}, of all groups or of some.
     """
@@ -218,7 +219,8 @@ def judge(results):
         judged += [claims.judge_changes(results["revalued"], results["wanting"])]
     if complete("layers", "modal", "resolutions"):
         judged += [claims.judge_more_maps(additions(results))]
-    return {claim.name: claim for claim in judged}
+    order = [*STATEMENTS].index
+    return {claim.name: claim for claim in sorted(judged, key=lambda claim: order(claim.name))}
 
 
 def additions(results):
