@@ -29,7 +29,7 @@ def main():
     parser.add_argument("--runs", type=int, default=RUNS, help=f"runs of each condition to draw from ({RUNS})")
     chosen = parser.parse_args()
     wanted = conditions(Reading(), max(LENGTHS.values()), chosen.runs)
-    results = dict(zip(wanted, sweep(wanted.values())))
+    results = dict(zip(wanted, sweep([*wanted.values()])))
     whole = {name: claim.verdict for name, claim in judge(results).items()}
     found = drawn(results, chosen.draws, np.random.default_rng(0))
     most = 0.0

@@ -163,7 +163,7 @@ def test_the_findings_of_the_original_are_not_found_in_results_that_lack_them():
 
 
 @pytest.mark.parametrize("given, after, verdict", [
-    ({}, 2, "partly"), ({}, 1, "reproduced"), ({}, 12, "contradicted"), ({"exploration": 0.3}, 2, None),
+    ({}, 2.5, "partly"), ({}, 1, "reproduced"), ({}, 12, "contradicted"), ({"exploration": 0.3}, 2, None),
     ({"learning_rate": 0.2}, 2, None), ({"Maze": lambda: Maze("RLRL")}, 2, None), ({"DAYS": 12}, 2, None),
     ({"Animal": lambda kind, **rates: Animal(kind, **rates, trace=0.5 if kind == "Sarsa(λ)" else 0.9)}, 2, None),
 ])
