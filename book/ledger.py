@@ -49,7 +49,7 @@ def front(record):
 
 def squares(record, build):
     """The strips of claims, the meaning of their symbols, and how a build compares, as HTML for the first page."""
-    legend = " · ".join(f"{marks.html(verdict)}\u00a0{_explained(verdict)}" for verdict in counts(record, CLAIMS))
+    legend = " · ".join(f"{marks.html(verdict)}\u00a0{marks.explained(verdict)}" for verdict in counts(record, CLAIMS))
     strips = [strip(record, some, "claims.html") for some in (AGENTS, APART)]
     return "\n".join([*strips, f"<p>{legend}</p>", f"<p>{beside(record, build)}</p>" * (build is not record)]) + "\n"
 
@@ -100,7 +100,7 @@ def runs(record):
 
 def tally(record, names, what):
     """The number of some claims with each verdict, as a line of Markdown. what: they are."""
-    return f"{len(names)} {what}: " + " · ".join(f"{marks.html(verdict)} {count} {_explained(verdict)}"
+    return f"{len(names)} {what}: " + " · ".join(f"{marks.html(verdict)} {count} {marks.explained(verdict)}"
                                                  for verdict, count in counts(record, names).items()) + "."
 
 
@@ -139,10 +139,6 @@ def _listed(by_verdict):
     count, verdict = first.split(" ", 1)
     listed = ", ".join([f"{count} {'is' if count == '1' else 'are'} {verdict}", *between])
     return listed + f" and {parts[-1]}" * (len(parts) > 1)
-
-
-def _explained(verdict):
-    return f"{verdict} ({marks.REASONS[verdict]})" if verdict in marks.REASONS else verdict
 
 
 def _claim(record, name):

@@ -48,7 +48,7 @@ def main():
         keep(table)
     if chosen.confirm:
         keep(calibration.confirm(table, chosen.confirm, chosen.fresh_runs, seed=chosen.seed,
-                                 **{"memories": chosen.memory} if chosen.memory else {}))
+                                 memories=chosen.memory))
 
 
 def parse_arguments():

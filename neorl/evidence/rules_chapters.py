@@ -6,8 +6,8 @@
 import numpy as np
 
 from neorl.evidence.statements import POSITIVE
-from neorl.evidence.statistics import (HALF_A_MINUTE, Estimate, difference, estimate, least, minutes_sooner, most,
-                                       probability_of_improvement, quotient, ratio)
+from neorl.evidence.statistics import (HALF_A_MINUTE, Estimate, difference, estimate, exact, least, minutes_sooner,
+                                       most, probability_of_improvement, quotient, ratio)
 from neorl.evidence.verdict import AFTER_TURN, BEFORE_TURN, FINAL, all_of, any_of, fewest_runs, judged, learned
 
 
@@ -81,8 +81,8 @@ def judge_real_time(load, delay, beside=None):
         None if the machine does not count them.
     Returns a `Claim`.
     """
-    busy = {} if beside is None else {"processes per core just before": Estimate(*[beside] * 3)}
-    return judged("T5", estimate(np.mean, load), len(load), {"steps late": Estimate(*[delay.max()] * 3)},
+    busy = {} if beside is None else {"processes per core just before": exact(beside)}
+    return judged("T5", estimate(np.mean, load), len(load), {"steps late": exact(delay.max())},
                   {"share of steps done late": estimate(np.mean, (delay > 1).mean(axis=1)), **busy})
 
 

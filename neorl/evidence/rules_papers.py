@@ -6,8 +6,8 @@
 import numpy as np
 
 from neorl.evidence.statements import STATEMENTS
-from neorl.evidence.statistics import (HALF_A_MINUTE, Estimate, difference, estimate, lead_over_best, lead_over_sum,
-                                       least, minutes_sooner, minutes_to_own_level, points,
+from neorl.evidence.statistics import (HALF_A_MINUTE, Estimate, difference, estimate, exact, lead_over_best,
+                                       lead_over_sum, least, minutes_sooner, minutes_to_own_level, most, points,
                                        probability_of_improvement, quotient, rank_correlation, ratio, resets)
 from neorl.evidence.verdict import (AFTER_TURN, EARLY, FINAL, MIDDLE, all_of, any_of, fewest_runs, judged,
                                     lead_over_brownian, leads, learned, share_of_run)
@@ -78,9 +78,9 @@ def _judge_saturation(by_resolution, runs, some_learned):
     sure, possible = ([n for n in final if levelled[n] in kept] for kept in ((True,), (True, None)))
     found = [estimate(rank_correlation, *(final[n] for n in maps)) if len(maps) > 1 else Estimate(0.0, -1.0, 1.0)
              for maps in (sure, possible)]
-    last = Estimate(found[1].value, *(end(each[at] for each in found) for at, end in ((1, min), (2, max))))
+    last = Estimate(found[1].value, least(found).low, most(found).high)
     if len(possible) < 2:
-        last = Estimate(0.0, 0.0, 0.0)  # no two maps have levelled off
+        last = exact(0.0)  # no two maps have levelled off
     return judged("A3", last, runs, {"early": estimate(rank_correlation, *early.values())},
                   {"rise from the middle fifth of the run to the last, of the final level": _of_maps(rise)},
                   testable=some_learned)
@@ -191,11 +191,11 @@ def judge_resolutions(place, objects, brownian):
     Returns a `Claim`.
     """
     runs = fewest_runs(*place.values(), *objects.values())
-    leads = {}
+    lead = {}
     for name, results in (("place cells", place), ("object-vector cells", objects)):
         final = [result.rate(*FINAL) for n, result in results.items() if n != "all"]
-        leads[name] = estimate(lead_over_best, results["all"].rate(*FINAL), *final)
-    return judged("B2", least(leads.values()), runs, {"lead": leads},
+        lead[name] = estimate(lead_over_best, results["all"].rate(*FINAL), *final)
+    return judged("B2", least(lead.values()), runs, {"lead": lead},
                   testable=any_of([learned(result, brownian) for result in (*place.values(), *objects.values())]))
 
 
@@ -220,7 +220,7 @@ def judge_points(result):
     """
     boards = resets(result)
     return judged("B5", estimate(ratio, points(result), boards), result.runs,
-                  shown={"by proof": Estimate(*[POINTS_PER_RESET] * 3),
+                  shown={"by proof": exact(POINTS_PER_RESET),
                          "resets of a run": estimate(np.mean, boards)}, testable=bool(boards.sum() > 0))
 
 
@@ -298,7 +298,7 @@ def judge_alternatives(alternatives, thesis, brownian, real_time):
     best = max(thesis, key=lambda name: thesis[name].mean())
     over = {name: estimate(ratio, final, thesis[best]) for name, (final, *_) in alternatives.items()}
     in_time = [name for name, (_, seconds, _) in alternatives.items() if seconds < real_time]
-    leader = max((over[name] for name in in_time), default=Estimate(0.0, 0.0, 0.0))
+    leader = max((over[name] for name in in_time), default=exact(0.0))
     return judged("C5", leader, min(map(len, [*(final for final, *_ in alternatives.values()), *thesis.values()])),
                   shown={f"final reward per second of the thesis's best, {best}": estimate(np.mean, thesis[best]),
                          "over it": {f"{name}, which sees {sees}{'' if name in in_time else ' (too slow)'}": over[name]

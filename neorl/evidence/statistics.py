@@ -61,6 +61,11 @@ def estimate(statistic: Callable, *samples: ArrayLike) -> Estimate:
     return Estimate(value, min(float(low), value), max(float(high), value))
 
 
+def exact(value):
+    """A number without uncertainty, as an `Estimate`."""
+    return Estimate(value, value, value)
+
+
 def least(estimates):
     """The smallest of several `Estimate`s, with the smallest bounds: that all are above a number."""
     return Estimate(*map(min, zip(*estimates)))

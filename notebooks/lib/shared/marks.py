@@ -39,8 +39,12 @@ def leads(verdict: str) -> bool:
 
 def legend(verdicts=VERDICTS[:-1]) -> str:
     """The symbols of some verdicts with their meaning: "● reproduced, …"."""
-    return ", ".join(f"{symbol(verdict)}\u00a0{verdict}" + (f" ({REASONS[verdict]})" if verdict in REASONS else "")
-                     for verdict in verdicts)
+    return ", ".join(f"{symbol(verdict)}\u00a0{explained(verdict)}" for verdict in verdicts)
+
+
+def explained(verdict: str) -> str:
+    """A verdict, with its reason if it has one."""
+    return f"{verdict} ({REASONS[verdict]})" if verdict in REASONS else verdict
 
 
 def html(verdict: str) -> str:

@@ -5,7 +5,7 @@ With too few runs for verdicts, or too short ones, the box says so instead.
 
 from html import escape
 
-from lib.shared.marks import REASONS, html
+from lib.shared.marks import explained, html
 from neorl.evidence.statements import AGENTS, CLAIMS, STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
@@ -38,8 +38,7 @@ def _line(reading, found):
         of_group = {name: found.pop(name) for name in [*found] if name in some}
         for verdict in sorted({*of_group.values()}, key=VERDICTS.index):
             names = ", ".join(link(name) for name, each in of_group.items() if each == verdict)
-            reason = f" ({REASONS[verdict]})" if verdict in REASONS else ""
-            groups[title].append(f"{html(verdict)}\u00a0{names} {verdict}{reason}")
+            groups[title].append(f"{html(verdict)}\u00a0{names} {explained(verdict)}")
     lines = [f"{title}{'; '.join(verdicts)}" for title, verdicts in groups.items() if verdicts]
     return f"{reading.capitalize()}{': ' if reading else ''}{'. '.join(lines)}"
 

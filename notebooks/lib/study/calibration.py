@@ -157,7 +157,7 @@ def rescale(table, scales, runs):
     return [*table, *calibration_table.run(rows, "networks")]
 
 
-def confirm(table, n, runs, seed=0, memories=(0.0, np.inf)):
+def confirm(table, n, runs, seed=0, memories=None):
     """Run the n leading readings of a table again, with fresh seeds, and return the table that includes the new rows.
 
     Readings that have been run only twice come last, and those that have been confirmed twice with as many runs are
@@ -169,7 +169,7 @@ def confirm(table, n, runs, seed=0, memories=(0.0, np.inf)):
     last = [row for row in table if row.wave == _next_wave(table) - 1]
     if len(last) == n and {row.runs for row in last} == {runs}:
         first = last
-    first = [row for row in first if _between([row.reading], memories)][:n]
+    first = [row for row in first if memories is None or _between([row.reading], memories)][:n]
     again = _new_rows(table, [row.reading for row in first], runs, seed)
     return [*table, *_complete([replace(new, steps=row.steps) for new, row in zip(again, first)])]
 
