@@ -5,6 +5,7 @@
 
 import copy
 import re
+import sys
 
 import pytest
 from cells import of_page
@@ -24,13 +25,22 @@ def cut_down(text):
     return re.sub(r"\bruns=\d+", "runs=1", re.sub(r"\bsteps=[\d_]+", "steps=1_000", text))
 
 
+def shared_functions():
+    """The functions and classes of modules that other tests use too: {(module, name): function}."""
+    return {(module, name): value for module in [*sys.modules] if re.match(r"(lib|neorl)\b", module)
+            for name, value in vars(sys.modules[module]).items() if callable(value)}
+
+
 @pytest.mark.filterwarnings("ignore:invalid escape sequence")  # of RatInABox, where it is first compiled
 @pytest.mark.parametrize("name", [name for name in SUGGESTED if name not in LONG])
 def test_a_suggested_program_runs_with_what_it_needs_of_its_page(name):
     page, text = SUGGESTED[name]
     cells = of_page(copy.deepcopy(NOTEBOOKS[page].cells), SMALL)
     cells.append(new_code_cell(cut_down(text), metadata={"mystnb": {"figure": {"name": name}}}))
+    before = shared_functions()
     exec(compile(program(cells, name).removesuffix(SAVE.format(name=name)), name, "exec"), {"__name__": f"of_{page}"})
+    after = shared_functions()
+    assert [key for key, function in before.items() if after[key] is not function] == []
 
 
 def test_the_programs_that_are_too_long_are_those_of_pages():
