@@ -25,7 +25,7 @@ PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
 TILED_FRACTION = 1.0
 OF_OBJECTS: dict[str, Any] = {"object_state": "per object", "object_reach": 0.0, "object_tiled_fraction": 0.5,
               "object_beyond": "none", "object_centred": False}
-PLACE_GAIN, SCALE = 2.0, 25.0  # of place cells in paper B; of the desire vectors of paper C, in board widths
+PLACE_GAIN, SCALE = 2.0, 36.16  # of place cells in paper B; of the desire vectors of paper C, in board widths
 OF_NODES = ("weighting", "tiled_fraction", *OF_OBJECTS)  # choices that are no field of `Agent`
 CHOICES = (*OF_NODES, *(each.name for each in fields(Agent)[2:]))
 HINTS = get_type_hints(Agent)

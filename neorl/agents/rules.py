@@ -131,8 +131,8 @@ class Policy(checks.Final):
 
 # Of the confirmed readings within the text, the one for which most claims agree (`notebooks/lib/study`).
 CALIBRATED = Learning(
-    learning_rate=0.02, discount=0.9921, credit="share", activity=0.3697, absent_decay=0.1,
-    absent_form="decay", terminal=False, memory=80.0, bootstrap=False)
+    learning_rate=0.01242, discount=0.9931, credit="share", activity=0.4982, absent_decay=0.07674,
+    absent_form="decay", terminal=False, memory=35.28, bootstrap=False)
 # What the text prints, and the simplest or the middle of the prior where it leaves more, see
 # `notebooks/lib/shared/priors.py`.
 TO_THE_LETTER = Learning(

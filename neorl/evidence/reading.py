@@ -84,7 +84,7 @@ class Reading:
     recursion: float = -1.0
     network_resolutions: tuple[int, ...] = LAYERS
     world: WaterWorld = WaterWorld()
-    paper_a_fps: int = PAPER_FPS
+    paper_a_fps: int = 30
 
     def __post_init__(self):
         checks.check_fields(self)
@@ -127,7 +127,7 @@ class Reading:
 # What the text prints or pins; where it leaves more, the simplest or the middle of a prior, as the pins say.
 TO_THE_LETTER = Reading(rules.TO_THE_LETTER, shared_cell="once", resets="unnoticed", object_state="self",
                         object_reach=0.0, object_tiled_fraction=1.0, object_beyond="outermost", object_centred=False,
-                        weighting="resolution", place_gain=1.0, scale=10.0)
+                        weighting="resolution", place_gain=1.0, scale=10.0, paper_a_fps=PAPER_FPS)
 
 
 def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,

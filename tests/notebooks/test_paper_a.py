@@ -11,7 +11,7 @@ from lib.shared.report import CALIBRATED, LETTER
 from neorl import Condition, Result, WaterWorld, brownian, place_cells
 from neorl.evidence.reading import LAYERS, SINGLE, TO_THE_LETTER, Reading, conditions, judge
 
-WORLD = WaterWorld(n_creeps=8, win_reward=5.0)
+WORLD = WaterWorld(n_creeps=8, win_reward=5.0, fps=Reading().paper_a_fps)
 
 
 def page(*cells, **parameters):
@@ -106,8 +106,8 @@ def test_the_explorer_offers_both_readings_and_one_control():
 
 
 def test_squares_are_counted_once_ten_times_a_second():
-    squares = paper_a.squares_entered(brownian(), WORLD, 200, 2)
+    squares = paper_a.squares_entered(brownian(), WaterWorld(), 200, 2)
     assert squares.shape == (2, 40) and (squares[:, 0] == 1).all()
     assert set(np.diff(squares).ravel()) == {0, 1}
-    assert np.array_equal(squares, paper_a.squares_entered(brownian(), WORLD, 400, 2)[:, :40])
-    assert paper_a.squares_entered(brownian(), WORLD, 3, 1).shape == (1, 1)  # of a short run
+    assert np.array_equal(squares, paper_a.squares_entered(brownian(), WaterWorld(), 400, 2)[:, :40])
+    assert paper_a.squares_entered(brownian(), WaterWorld(), 3, 1).shape == (1, 1)  # of a short run
