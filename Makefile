@@ -39,7 +39,7 @@ LONG := assumptions beyond_agents calibration paper_a paper_c
 TIMED := paper_b performance
 CONCLUSION := chapter_5
 TOGETHER := $(filter $(NAMES),$(LONG)) $(filter-out $(LONG) $(TIMED) $(CONCLUSION),$(NAMES))
-SOURCES := $(shell find neorl notebooks/lib -type f -not -path '*/__pycache__/*') environment.txt \
+SOURCES := $(shell find neorl notebooks/companion -type f -not -path '*/__pycache__/*') environment.txt \
     $(addprefix book/,cells.py compute.py excerpts.py programs.py)
 HTML := _build/html/index.html
 page = $(1:%=$(CHAPTERS)/%.ipynb)
@@ -110,7 +110,7 @@ fuzz: .venv/ready
 
 lab: .venv/ready
 	$(BIN)/jupyter lab --ServerApp.root_dir=. --LabApp.default_url=/lab/tree/notebooks \
-	    --ContentsManager.pre_save_hook=lib.shared.saving.keep_source \
+	    --ContentsManager.pre_save_hook=companion.shared.saving.keep_source \
 	    $(if $(filter 0,$(shell id -u)),--allow-root) $(ARGS)
 
 record: .venv/ready
@@ -130,7 +130,7 @@ wheel: .venv/ready
 	    status=$$?; rm -f neorl/browser/*.wasm; exit $$status
 
 # Pins are complete, so pip need not resolve anything; modules are compiled when first used, which is far fewer. Pages
-# find `lib` from any folder.
+# find `companion` from any folder.
 .venv/ready: environment.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; name it with make PYTHON=...")'
 	$(PYTHON) -m venv --clear .venv

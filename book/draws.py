@@ -2,7 +2,7 @@
 
 A claim *flips* in a draw if it is reproduced where all runs contradict it, or the other way round. More than a
 twentieth of flips for any claim is too many: then this script ends with 1. Runs come from the cache, or are computed.
-It judges what `neorl.evidence.reading.judge` does, under the default reading.
+It judges what `companion.thesis.reading.judge` does, under the default reading.
 
 Run it as ``python book/draws.py``, from the root of a clone.
 """
@@ -14,8 +14,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from neorl.evidence.reading import CONTROLS, LENGTHS, Reading, conditions, judge
-from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
+from companion.thesis.reading import CONTROLS, LENGTHS, Reading, conditions, judge
+from companion.thesis.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 from neorl.experiments.result import Result
 from neorl.experiments.simulation import sweep
 

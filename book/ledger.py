@@ -1,4 +1,4 @@
-"""The page of all claims, and what the first page says of them, from the records of `lib.shared.report`.
+"""The page of all claims, and what the first page says of them, from the records of `companion.shared.report`.
 
 1. The headline counts the claims about agents, and apart from them those that a proof or a count settles, that are
    about this book's code, or that report attempts. It is the same wherever it stands.
@@ -11,13 +11,13 @@
 from collections import Counter
 from html import escape
 
-from lib.shared import marks, report, wording
-from lib.shared.opening import anchor
-from lib.shared.priors import WITHIN
-from lib.study.calibration_targets import CLAIMS as FITTED
-from neorl.evidence.reading import TO_THE_LETTER, Reading
-from neorl.evidence.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS
-from neorl.evidence.verdict import RUNS_FOR_A_VERDICT
+from companion.shared import marks, report, wording
+from companion.shared.opening import anchor
+from companion.shared.priors import WITHIN
+from companion.study.calibration_targets import CLAIMS as FITTED
+from companion.thesis.reading import TO_THE_LETTER, Reading
+from companion.thesis.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS
+from companion.thesis.verdict import RUNS_FOR_A_VERDICT
 
 SHARES = {"reproduced": "Reproduce it, in short runs", "undecided": "Undecided, in short runs",
           "contradicted": "Contradict it, in short runs"}

@@ -9,9 +9,9 @@ sys.path.append(str(ROOT / "notebooks"))  # has what pages share
 
 # ruff: noqa: E402
 import ledger
-from lib.shared import report, wording
-from lib.shared.marks import symbol
-from neorl.evidence.statements import AGENTS, DEMONSTRATIONS, STATEMENTS
+from companion.shared import report, wording
+from companion.shared.marks import symbol
+from companion.thesis.statements import AGENTS, DEMONSTRATIONS, STATEMENTS
 from record import of_book
 
 BETWEEN = re.compile(r"(?<=<!-- claims: make readme -->\n).*(?=<!-- end of claims -->)", re.S)

@@ -19,11 +19,11 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # has w
 
 # ruff: noqa: E402
 from compute import ROOT, records
-from lib.shared import report
+from companion.shared import report
 from verify import recomputed
 
-from neorl.evidence.reading import LENGTHS, TO_THE_LETTER, Reading, conditions
-from neorl.evidence.statements import AGENTS, STATEMENTS
+from companion.thesis.reading import LENGTHS, TO_THE_LETTER, Reading, conditions
+from companion.thesis.statements import AGENTS, STATEMENTS
 from neorl.experiments.condition import source_digest
 from neorl.files import write_whole
 

@@ -9,9 +9,9 @@ import sys
 import tomllib
 from pathlib import Path
 
-from lib.shared import report
-from neorl.evidence import claims
-from neorl.evidence.statements import STATEMENTS
+from companion.shared import report
+from companion.thesis import claims
+from companion.thesis.statements import STATEMENTS
 
 HISTORY = Path(__file__).parent / "rules.toml"
 

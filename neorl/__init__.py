@@ -10,7 +10,7 @@ The package is organised in rooms; a module imports only from its own room and f
 - `neorl.browser`: the kernels compiled for web pages, and the Explorer that runs them there;
 - `neorl.gym`: worlds as Gymnasium environments, and agents in any Gymnasium environment;
 - `neorl.drawing`: figures;
-- `neorl.evidence`: statistics, claims and their rules, readings of the thesis;
+- `neorl.statistics`: estimates with their intervals, and comparisons;
 - `neorl.experiments`: runs, sweeps, and the cache of finished ones;
 - `neorl.agents`: agents as data, and the `Learner`;
 - `neorl.worlds`: the interface of worlds, WaterWorld and others, and the rollout of an agent in them;

@@ -35,7 +35,7 @@ def cache_folder():
     if named := os.environ.get("NEORL_CACHE"):
         began_in = os.environ.get("PWD", "")
         return Path(began_in if os.path.isdir(began_in) else "", os.path.expanduser(named)).absolute()
-    if (CHECKOUT / "notebooks" / "lib").is_dir():
+    if (CHECKOUT / "notebooks" / "companion").is_dir():
         return CHECKOUT / ".cache"
     try:
         return platformdirs.user_cache_path("neorl-companion")

@@ -14,11 +14,11 @@ import time
 from ast import literal_eval
 from pathlib import Path
 
-from lib.study import calibration
-from lib.study.calibration_results import progress
-from lib.study.calibration_table import SHIPPED, read_table, write_table
-from lib.study.calibration_targets import GROUPS
-from neorl.evidence.reading import Reading
+from companion.study import calibration
+from companion.study.calibration_results import progress
+from companion.study.calibration_table import SHIPPED, read_table, write_table
+from companion.study.calibration_targets import GROUPS
+from companion.thesis.reading import Reading
 
 
 def main():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from explorer_page import write_page
 
-from lib.performance.bound import drawn_steps
+from companion.performance.bound import drawn_steps
 from neorl import Explorer, Run, WaterWorld, multimodal, place_cells, simulate
 from neorl.core.calls import execute
 from neorl.core.kernel import kernel

@@ -7,7 +7,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
 
-from neorl.evidence.statements import CLAIMS, STATEMENTS
+from companion.thesis.statements import CLAIMS, STATEMENTS
 
 HTML = Path(__file__).parent.parent / "_build" / "html"
 BOTH_MODALITIES = "Paper B, figure 5: place + object-vector cells"

@@ -21,7 +21,7 @@ NOTEBOOKS = ("assumptions", "chapter_5", "paper_a")
 SIMULATE = """from pathlib import Path
 from IPython.display import SVG
 import neorl
-from lib.shared import report
+from companion.shared import report
 result = neorl.simulate(neorl.place_cells([3]), neorl.WaterWorld(), steps=10_000, runs=runs, seed={seed},
                         cache=True, progress=False)
 lines = "".join(f"<path d='M{{k}} 0V{{abs(paid):.0f}}'/>" for k, paid in enumerate(result.rewards.ravel()))
@@ -29,7 +29,7 @@ print(f"{{result.totals.sum():.6f}}")"""
 DRAW = """SVG(f"<svg xmlns='http://www.w3.org/2000/svg' width='75pt' height='30pt'>{lines * 20}</svg>")"""
 FIND_SHARES = """report.save('assumptions', shares={'A2': {'reproduced': 1, 'undecided': 0, 'contradicted': 3,
                                                   'readings': 4}})"""
-CONCLUDE = """from lib.shared import report
+CONCLUDE = """from companion.shared import report
 print(sorted(report.load()["shares"].items()))
 report.save("chapter_5")"""
 CONFIG = """title: A small book
@@ -47,8 +47,9 @@ INDEX = "# A small book\n\n```{include} chapters/contents.md\n```\n"
 def make_tree(tree):
     """Write the sources of the book into a folder."""
     (tree / "book").mkdir(parents=True)
-    shutil.copytree(ROOT / "notebooks" / "lib" / "shared", tree / "notebooks" / "lib" / "shared")
-    shutil.copy(ROOT / "notebooks" / "lib" / "__init__.py", tree / "notebooks" / "lib")
+    for room in ("shared", "thesis"):
+        shutil.copytree(ROOT / "notebooks" / "companion" / room, tree / "notebooks" / "companion" / room)
+    shutil.copy(ROOT / "notebooks" / "companion" / "__init__.py", tree / "notebooks" / "companion")
     shutil.copy(ROOT / "Makefile", tree)
     for path in [*(ROOT / "book").glob("*.py"), ROOT / "book" / "rules.toml"]:
         shutil.copy(path, tree / "book")  # links would lead the build to the real tree

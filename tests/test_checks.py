@@ -8,7 +8,7 @@ from neorl import (Actions, Agent, Axis, Desire, Learner, Learning, Modality, No
                    kernel, kernel_maker, learn, object_vector_cells, place_cells, softmax)
 from neorl.agents.compile import n_bytes
 from neorl.core.modality import PLACE_CELL, cartesian, polar
-from neorl.evidence import statistics
+from neorl import statistics
 
 WORLD = WaterWorld(n_creeps=2)
 MASKED = np.ma.array([0.5, 0.6], mask=[True, False])

@@ -21,7 +21,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 @pytest.mark.parametrize("imported, when_used", [
     ("neorl", ("anywidget", "distributed", "gymnasium", "IPython", "matplotlib", "numba", "pandas", "psutil", "scipy",
                "tqdm")),
-    ("neorl.drawing, neorl.evidence.reading", ("scipy.optimize", "scipy.signal", "scipy.stats"))])
+    ("neorl.drawing, companion.thesis.reading", ("scipy.optimize", "scipy.signal", "scipy.stats"))])
 def test_what_takes_long_is_imported_when_it_is_used(imported, when_used):
     listed = subprocess.run([sys.executable, "-c", f"import {imported}, sys; print(*sys.modules)"],
                             capture_output=True, text=True, check=True)
@@ -83,7 +83,7 @@ def test_a_checker_finds_no_error(command):
 
 
 def test_no_modules_import_each_other_in_a_circle():
-    graph = grimp.build_graph("neorl", "lib", cache_dir=None)
+    graph = grimp.build_graph("neorl", "companion", cache_dir=None)
     for module in graph.modules:
         for imported in graph.find_modules_directly_imported_by(module):
             assert not graph.chain_exists(importer=imported, imported=module), (module, imported)
@@ -102,8 +102,9 @@ def test_files_and_names_that_the_sources_speak_of_exist():
     sources = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "Makefile", *(ROOT / "book").glob("*.md"), *(
         path for folder in ("neorl", "notebooks", "book", "tests") for path in (ROOT / folder).rglob("*.py"))]
     named = {(path.relative_to(ROOT), *name) for path in sources for name in re.findall(
-        r"(?<![\w/.])((?:neorl|notebooks|lib|book|tests)(?:/[\w-]+)+\.(?:py|toml|ipynb|md|js|css|csv|json))\b"
-        r"|`((?:neorl|lib)(?:\.\w+)+)`", path.read_text(encoding="utf-8")) if not name[0].startswith("book/chapters/")}
+        r"(?<![\w/.])((?:neorl|notebooks|book|tests)(?:/[\w-]+)+\.(?:py|toml|ipynb|md|js|css|csv|json))\b"
+        r"|`((?:neorl|companion)(?:\.\w+)+)`", path.read_text(encoding="utf-8"))
+             if not name[0].startswith("book/chapters/")}
     missing = [each for each in named if each[1] and not any((ROOT / folder / each[1]).exists()
                                                              for folder in ("", "notebooks"))]
     for each in named:

@@ -4,7 +4,8 @@
 `tiled_fraction`: the central fraction of each axis's range that the maps of place cells divide into equal cells; values
 beyond it belong to the outermost cells. `object_tiled_fraction` is that of object-vector cells; `object_state`,
 `object_reach` and `object_beyond` are fields of their `Node`, and `object_centred` of its `Axis`. The defaults are
-those of the calibrated reading, `CALIBRATED` and `GREEDY` of `neorl.agents.rules` among them.
+those of the calibrated reading, `CALIBRATED` and `GREEDY` of `neorl.agents.rules` among them; `TO_THE_LETTER` has those
+of the reading to the letter: ``place_cells([5], **TO_THE_LETTER)``.
 
 Every function raises ValueError for values that `Agent` and its parts refuse, and TypeError for an unknown choice.
 """
@@ -15,6 +16,7 @@ from inspect import Parameter, signature
 from typing import Any, TypeVar, get_type_hints
 
 from neorl import checks
+from neorl.agents import rules
 from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
@@ -27,6 +29,13 @@ OF_OBJECTS: dict[str, Any] = {"object_state": "per object", "object_reach": 0.0,
               "object_beyond": "none", "object_centred": False}
 PLACE_GAIN, SCALE = 2.0, 36.16  # of place cells in paper B; of the desire vectors of paper C, in board widths
 OF_NODES = ("weighting", "tiled_fraction", *OF_OBJECTS)  # choices that are no field of `Agent`
+# `choices` of the reading to the letter, and the scale of its desire vectors. What the text prints or pins, and where
+# it leaves more, the simplest or the middle of a prior, see `notebooks/companion/shared/pins.py`.
+TO_THE_LETTER: dict[str, Any] = {
+    "learning": rules.TO_THE_LETTER, "shared_cell": "once", "resets": "unnoticed", "weighting": "resolution",
+    "object_state": "self", "object_reach": 0.0, "object_tiled_fraction": 1.0, "object_beyond": "outermost",
+    "object_centred": False}
+LITERAL_SCALE = 10.0
 CHOICES = (*OF_NODES, *(each.name for each in fields(Agent)[2:]))
 HINTS = get_type_hints(Agent)
 

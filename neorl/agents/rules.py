@@ -2,7 +2,7 @@
 
 The defaults are plain: an agent bootstraps, credits its last action, remembers no earlier cells, and explores.
 Everything the thesis leaves open is a field. `CALIBRATED` and `TO_THE_LETTER` are the rules of learning of two readings
-of the thesis (see `neorl.evidence.reading`), and `GREEDY` is the policy of both.
+of the thesis (see `companion.thesis.reading`), and `GREEDY` is the policy of both.
 """
 
 from collections.abc import Callable
@@ -78,7 +78,7 @@ AT_EVERY_STEP = {"credit": "share", "absent_decay": 0.0, "memory": 0.0, "bootstr
 class Contacts(checks.Final):
     """How nodes with contacts as their only goals learn, see `neorl.core.contacts`: beyond the thesis.
 
-    The defaults are the best values found by `notebooks/lib/beyond_agents/search.py`.
+    The defaults are the best values found by `notebooks/companion/beyond_agents/search.py`.
 
     horizon: seconds > 0, the time constant of discounting.
     learning_rate: α in [0, 1], the minimum; after n visits the rate is (n + 2)^(−3/4) or this, whichever is greater.
@@ -129,12 +129,12 @@ class Policy(checks.Final):
         check_kernel("choose", self.choose)
 
 
-# Of the confirmed readings within the text, the one for which most claims agree (`notebooks/lib/study`).
+# Of the confirmed readings within the text, the one for which most claims agree (`notebooks/companion/study`).
 CALIBRATED = Learning(
     learning_rate=0.01242, discount=0.9931, credit="share", activity=0.4982, absent_decay=0.07674,
     absent_form="decay", terminal=False, memory=35.28, bootstrap=False)
 # What the text prints, and the simplest or the middle of the prior where it leaves more, see
-# `notebooks/lib/shared/priors.py`.
+# `notebooks/companion/shared/priors.py`.
 TO_THE_LETTER = Learning(
     learning_rate=0.012247448713915891, discount=0.9805065484119142, credit="activity", activity=0.5,
     absent_decay=0.03162277660168379, absent_form="away", terminal=False, memory=0.0, bootstrap=True)

@@ -28,14 +28,12 @@ from neorl.browser import wasm
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
 from neorl.core.kernel import is_tuple
 from neorl.core.modality import MODALITIES, PLACE_CELL, axis_parameters
-from neorl.evidence.reading import TO_THE_LETTER as LETTER
-from neorl.evidence.reading import networks
-from neorl.evidence.statistics import tolerance_band
 from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
 from neorl.experiments.run import bin_steps
 from neorl.experiments.simulation import label
 from neorl.extras import require
+from neorl.statistics import tolerance_band
 from neorl.worlds.arena import Arena
 from neorl.worlds.arm import Arm
 from neorl.worlds.vessel import Vessel
@@ -52,10 +50,10 @@ OF_THE_PAPERS = {  # with the defaults of the package
     "Network A": papers.network_a(), "Network B": papers.network_b(), "Network C": papers.network_c(),
     "Network D": papers.network_d()}
 TO_THE_LETTER = {
-    "Place cells, to the letter": papers.place_cells(**LETTER.agents),
-    "Object-vector cells, to the letter": papers.object_vector_cells(**LETTER.agents),
-    "Place and object-vector cells, to the letter": papers.multimodal(place_gain=LETTER.place_gain, **LETTER.agents),
-    "Network D, to the letter": networks(LETTER)["D"]}
+    "Place cells, to the letter": papers.place_cells(**papers.TO_THE_LETTER),
+    "Object-vector cells, to the letter": papers.object_vector_cells(**papers.TO_THE_LETTER),
+    "Place and object-vector cells, to the letter": papers.multimodal(place_gain=1.0, **papers.TO_THE_LETTER),
+    "Network D, to the letter": papers.network_d(scale=papers.LITERAL_SCALE, **papers.TO_THE_LETTER)}
 IN_THE_ARENA = {  # since the platform never moves, only exploration gets an agent out of a deadlock
     "Place cells in the water maze": Agent(
         [Node("PC", PLACE_CELL, [5, 9, 13])], [Desire("platform", "PC", 1.0)],
@@ -144,7 +142,7 @@ class Explorer(AnyWidget):
         first = next(iter(conditions.values()), None)
         tanks = [each.world for each in conditions.values() if isinstance(each.world, WaterWorld)]
         tank = tanks[0] if tanks else WaterWorld()
-        as_printed = replace(tank, fps=LETTER.world.fps, contact=LETTER.world.contact)
+        as_printed = replace(tank, fps=WaterWorld.fps, contact=WaterWorld.contact)
         agents = {name: (agent, as_printed if name in TO_THE_LETTER else Arena() if name in IN_THE_ARENA else tank)
                   for name, agent in AGENTS.items()} | OTHER_SPACES
         own = {name: (each.agent, each.world) for name, each in conditions.items()}

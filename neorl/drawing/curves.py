@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from neorl import checks
 from neorl.drawing.style import INK, axes_or_new, by_name, looks, name_ends, numbers
-from neorl.evidence.statistics import Estimate, binned_rate, mean_band, tolerance_band
+from neorl.statistics import Estimate, binned_rate, mean_band, tolerance_band
 from neorl.experiments.result import Result
 
 POINTS = 400  # per curve; more would not be visible
@@ -116,11 +116,11 @@ def draw_sweep(xs: ArrayLike, estimates_by_name: Mapping[str, Sequence[Estimate]
                ylabel: str = "reward per second", ax: Axes | None = None) -> Axes:
     """Draw reward against a parameter, with 95 % intervals.
 
-    xs: (points,). estimates_by_name: {name: [`neorl.evidence.statistics.Estimate` for each of xs]}.
+    xs: (points,). estimates_by_name: {name: [`neorl.statistics.Estimate` for each of xs]}.
     xlabel, ylabel: of the axes.
     Raises ValueError for anything else.
 
-    >>> from neorl.evidence.statistics import Estimate
+    >>> from neorl.statistics import Estimate
     >>> axes = drawing.draw_sweep([3, 7], {"place cells": [Estimate(0.1, 0.0, 0.2), Estimate(0.3, 0.2, 0.5)]}, "N")
     """
     xs = checks.doubles("xs", xs)

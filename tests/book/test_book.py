@@ -22,10 +22,10 @@ MODULES = [f"neorl.{name}" for name in (
     "agents.agent", "agents.individual", "agents.learner", "agents.rules", "core.choices", "core.kernel", "core.maps",
     "core.modality", "core.scene", "experiments.condition", "experiments.result", "experiments.run",
     "experiments.simulation", "worlds", "worlds.world", "worlds.arena", "worlds.arm")] + [
-        "lib.other_spaces.trials", "lib.study.multiverse"]
+        "companion.other_spaces.trials", "companion.study.multiverse"]
 
 
-def make_book(folder, url="", modules=("lib.shared.grid",)):
+def make_book(folder, url="", modules=("companion.shared.grid",)):
     """Build a book of two pages with our settings; returns the folder of its HTML."""
     chapters = folder / "book" / "chapters"
     chapters.mkdir(parents=True)
@@ -131,7 +131,7 @@ def test_a_docstring_opens_with_a_sentence_and_lists_what_follows(lines, read):
 
 def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(reference):
     of_arm = reference.split('id="neorl.worlds.arm.Arm"')[1].split("</dl>")[0]
-    assert ">lengths<" in of_arm and "#lib.other_spaces.trials.lengths" not in of_arm
+    assert ">lengths<" in of_arm and "#companion.other_spaces.trials.lengths" not in of_arm
     of_axis = reference.split('id="neorl.core.modality.Axis"')[1].split("</dl>")[0]
     assert "#neorl.core.maps.NresMap.intervals" not in of_axis
     assert 'href="#neorl.core.kernel.kernel" title' in of_axis  # neorl.kernel

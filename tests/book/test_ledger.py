@@ -8,11 +8,11 @@ import ledger
 import pytest
 import readme
 import rules
-from lib.shared import report
-from lib.shared.priors import WITHIN
+from companion.shared import report
+from companion.shared.priors import WITHIN
 
-from neorl.evidence.reading import TO_THE_LETTER, Reading
-from neorl.evidence.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS, Bounds
+from companion.thesis.reading import TO_THE_LETTER, Reading
+from companion.thesis.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS, Bounds
 
 FOUND = {"here": [0.1, 0.09, 0.11], "runs": 100, "verdict": "reproduced",
          "numbers": {"Lead of B over A": [[0.1, 0.09, 0.11], "more than 0", "✓", "asked"]}}

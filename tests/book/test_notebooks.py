@@ -12,8 +12,8 @@ from page_cells import HIDDEN
 from page_cells import NOTEBOOKS as FOLDER
 from programs import figure_of
 
-from lib.shared import notebook
-from neorl.evidence.statements import STATEMENTS
+from companion.shared import notebook
+from companion.thesis.statements import STATEMENTS
 
 NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted(FOLDER.glob("*.ipynb"))}
 DRAWS = r"(figures|drawing)\.(draw|new)_|plt\.(figure\(|subplots)|draw_means\("

@@ -9,7 +9,7 @@ import readme
 
 from neorl import Agent, Desire, Node, Policy
 from neorl.core import modality
-from neorl.evidence.statements import STATEMENTS
+from companion.thesis.statements import STATEMENTS
 from record import RECORD, of_book
 
 README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")

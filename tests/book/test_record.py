@@ -7,12 +7,12 @@ import pytest
 import record
 from hypothesis import given
 from hypothesis import strategies as st
-from lib.shared import report
-from lib.shared.marks import DECIDED
+from companion.shared import report
+from companion.shared.marks import DECIDED
 
-from neorl.evidence.statements import AGENTS, STATEMENTS
-from neorl.evidence.statistics import Estimate
-from neorl.evidence.verdict import VERDICTS, judged, outcome
+from companion.thesis.statements import AGENTS, STATEMENTS
+from neorl.statistics import Estimate
+from companion.thesis.verdict import VERDICTS, judged, outcome
 from neorl.experiments.condition import source_digest
 
 CLAIM = {"here": [1.0, 0.5, 1.5], "runs": 100, "verdict": "undecided", "numbers": {}}

@@ -27,7 +27,7 @@ def cut_down(text):
 
 def shared_functions():
     """The functions and classes of modules that other tests use too: {(module, name): function}."""
-    return {(module, name): value for module in [*sys.modules] if re.match(r"(lib|neorl)\b", module)
+    return {(module, name): value for module in [*sys.modules] if re.match(r"(companion|neorl)\b", module)
             for name, value in vars(sys.modules[module]).items() if callable(value)}
 
 

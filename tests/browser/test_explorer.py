@@ -16,7 +16,7 @@ from neorl.agents.papers import OF_OBJECTS
 from neorl.agents.spaces import pilot
 from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OTHER_SPACES, STEPS
 from neorl.core import modality
-from neorl.evidence.reading import TO_THE_LETTER as LETTER
+from companion.thesis.reading import TO_THE_LETTER as LETTER
 
 TANK = WaterWorld(n_creeps=8, win_reward=5.0)
 SIZE = {"steps": 12_345, "runs": 12, "seed": 5, "progress": False}

@@ -12,7 +12,7 @@ from playwright.sync_api import expect
 
 from neorl import Desire, Explorer, Place, Run, WaterWorld, object_vector_cells, place_cells, simulate
 from neorl.browser.explorer import OTHER_SPACES, STEPS
-from neorl.evidence.reading import TO_THE_LETTER, networks
+from companion.thesis.reading import TO_THE_LETTER, networks
 
 TANK, PLACES, THINGS = WaterWorld(), place_cells([5, 3]), object_vector_cells([4])
 SIZE = {"steps": 20_000, "runs": 12, "seed": 3, "progress": False}

@@ -2,7 +2,7 @@
 
 import pytest
 from explorer_page import COLOURS, coloured, press, wait, write_page
-from lib.shared.replay import Replay, record
+from companion.shared.replay import Replay, record
 from playwright.sync_api import expect
 
 from neorl import Condition, Explorer, Run, WaterWorld, place_cells

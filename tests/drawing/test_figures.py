@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from lib import paper_c
-from lib.shared.smoothing import draw_smoothed, low_passed
+from companion import paper_c
+from companion.shared.smoothing import draw_smoothed, low_passed
 from neorl import (Condition, NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells,
                    simulate)
 from neorl.core.geometry import TAU
 from neorl import drawing
 from neorl.drawing.curves import draw_sums
 from neorl.drawing.style import looks
-from neorl.evidence.statistics import binned_rate
+from neorl.statistics import binned_rate
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ from matplotlib import pyplot as plt
 
 import neorl
 from neorl import Condition, NresMap, Result, Run, WaterWorld, drawing, network_d, place_cells
-from neorl.evidence.statistics import Estimate
+from neorl.statistics import Estimate
 
 MODULES = [importlib.import_module(f"neorl.drawing.{each.name}") for each in pkgutil.iter_modules(drawing.__path__)]
 TANK = WaterWorld()

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.patches import Wedge
 from matplotlib.transforms import Affine2D
 
-from lib.paper_b.receptive_fields import draw_receptive_fields
+from companion.paper_b.receptive_fields import draw_receptive_fields
 from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Run, WaterWorld, drawing
 from neorl.core.geometry import TAU
 from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, polar

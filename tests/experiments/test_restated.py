@@ -1,11 +1,11 @@
-"""Runs equal the agent in one file of plain Python (`lib.one_file`), under every option of learning and of desires."""
+"""Runs equal the agent in one file of plain Python, `companion.one_file`, under all options of learning and desires."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from golden import plain_rule
-from lib.one_file import simulate
+from companion.one_file import simulate
 
 from neorl import (Agent, Desire, Node, Place, Policy, Run, WaterWorld, multimodal, network_a, network_b, network_c,
                    network_d, object_vector_cells, place_cells)

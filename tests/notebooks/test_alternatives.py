@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from page_cells import planned, source
 
-from lib.alternatives import controllers, living, search, tabular_learners
-from lib.alternatives.contestants import of_thesis
-from lib.alternatives.living import BOARDS, Earned
-from lib.shared import notebook
+from companion.alternatives import controllers, living, search, tabular_learners
+from companion.alternatives.contestants import of_thesis
+from companion.alternatives.living import BOARDS, Earned
+from companion.shared import notebook
 from neorl import Result, Run, WaterWorld, brownian, forager, place_cells, simulate
 from neorl.core.calls import execute
 from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
-from neorl.evidence.reading import TO_THE_LETTER, Reading
+from companion.thesis.reading import TO_THE_LETTER, Reading
 from neorl.worlds.waterworld import GREEN, RED
 
 SETTINGS = search.best_settings()
@@ -139,14 +139,14 @@ def test_every_run_is_stored_once_and_deep_learners_have_three_long_ones_on_each
 @pytest.mark.parametrize("method", search.DEEP)
 def test_a_short_rerun_of_a_deep_learner_equals_the_start_of_its_stored_run(method):
     pytest.importorskip("sb3_contrib", reason="deep learners need packages that no extra installs")
-    from lib.alternatives.deep_runs import live
+    from companion.alternatives.deep_runs import live
     row = next(row for row in LONG if row[:4] == (method, 3, 600_000, 2))
     rewards, _, _ = live(method, SETTINGS[method], 3, 6_000, 0, 2)
     assert np.array_equal(rewards, row.rewards[:2])
 
 
 def test_deep_learners_see_how_fast_creeps_move_nearest_first():
-    from lib.alternatives.deep_runs import FASTEST_CREEP, Sight, gymnasium
+    from companion.alternatives.deep_runs import FASTEST_CREEP, Sight, gymnasium
     env = Sight(gymnasium.make("neorl.gym:neorl/WaterWorld-v0", n_creeps=3, max_episode_steps=-1), 6_000, 0, 1, 3.0)
     observation, _ = env.reset(seed=12345)
     state = env.unwrapped.world_state

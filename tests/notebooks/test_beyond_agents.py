@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from page_cells import planned
 
-from lib.alternatives.controllers import act_planner, planner
-from lib.alternatives.search import best_settings
-from lib.beyond_agents import figures, search
+from companion.alternatives.controllers import act_planner, planner
+from companion.alternatives.search import best_settings
+from companion.beyond_agents import figures, search
 from neorl import (NresMap, Run, WaterWorld, execute, forager, kernel, multimodal, simulate)
 from neorl.core.choices import Action
 

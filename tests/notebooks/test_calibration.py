@@ -7,16 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lib.shared import pins
-from lib.shared.priors import WITHIN
-from lib.study import calibration, calibration_results, calibration_table, calibration_targets
-from lib.study.calibration import design, features
-from lib.study.calibration_table import Row, read_table, write_table
-from lib.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
-from lib.study.multiverse import binned
+from companion.shared import pins
+from companion.shared.priors import WITHIN
+from companion.study import calibration, calibration_results, calibration_table, calibration_targets
+from companion.study.calibration import design, features
+from companion.study.calibration_table import Row, read_table, write_table
+from companion.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
+from companion.study.multiverse import binned
 from neorl import CALIBRATED, Condition, WaterWorld, place_cells
-from neorl.evidence.reading import TO_THE_LETTER, Reading
-from neorl.evidence.statements import STATEMENTS
+from companion.thesis.reading import TO_THE_LETTER, Reading
+from companion.thesis.statements import STATEMENTS
 from neorl.experiments.result import Result
 
 SAMPLE = 3  # rows of the table that are recomputed, in the cheapest group

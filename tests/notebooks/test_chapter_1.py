@@ -3,7 +3,7 @@
 import numpy as np
 from page_cells import defined
 
-from lib.shared.runs import each_run
+from companion.shared.runs import each_run
 from neorl import Learning, Run, WaterWorld, execute, multimodal, place_cells, simulate
 from neorl.core.kernel import arrays
 

@@ -8,9 +8,9 @@ from scipy.integrate import solve_ivp
 from scipy.signal import lfilter
 from scipy.special import exprel
 
-from lib.chapter_2 import figures, tuning
-from lib.chapter_2.tuning import (Trajectory, TuningCurve, egocentric, in_field, information,
-                                  information_in_spikes, lose_track, mistaken, roam, spikes, tuning_curve)
+from companion.chapter_2 import figures, tuning
+from companion.chapter_2.tuning import (Trajectory, TuningCurve, egocentric, in_field, information,
+                                        information_in_spikes, lose_track, mistaken, roam, spikes, tuning_curve)
 from neorl import NresMap
 from neorl.core.geometry import TAU
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, LANDMARK_VECTOR_CELL,

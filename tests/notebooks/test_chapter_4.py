@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 from page_cells import code, planned, source
 
-from lib.chapter_4 import drivers, noise, superposition
-from lib.chapter_4.credit import DEFAULT, INVERSION, Chamber, learn_in
-from lib.chapter_4.noise import expected_squared_displacement, mean_squared_displacement, walk
-from lib.chapter_4.superposition import fit_ridges, plan
-from lib.shared.grid import Grid
+from companion.chapter_4 import drivers, noise, superposition
+from companion.chapter_4.credit import DEFAULT, INVERSION, Chamber, learn_in
+from companion.chapter_4.noise import expected_squared_displacement, mean_squared_displacement, walk
+from companion.chapter_4.superposition import fit_ridges, plan
+from companion.shared.grid import Grid
 from neorl import WaterWorld, multimodal, place_cells
 from neorl.agents.rules import CALIBRATED
 from neorl.core.calls import execute
 from neorl.core.stream import new_stream, randint, uniform
-from neorl.evidence.reading import TO_THE_LETTER, Reading, conditions
-from neorl.evidence.verdict import Claim
+from companion.thesis.reading import TO_THE_LETTER, Reading, conditions
+from companion.thesis.verdict import Claim
 
 FAR = (np.inf, 0, 0)
 SIDE = np.linspace(-1, 1, 31)

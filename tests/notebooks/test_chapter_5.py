@@ -7,11 +7,11 @@ import pytest
 from matplotlib import pyplot as plt
 from page_cells import planned
 
-from lib import chapter_5
-from lib.shared.report import CALIBRATED, LETTER
-from neorl.evidence.reading import PRIMES, Reading, conditions
-from neorl.evidence.statements import AGENTS, CLAIMS, STATEMENTS
-from neorl.evidence.verdict import VERDICTS
+from companion import chapter_5
+from companion.shared.report import CALIBRATED, LETTER
+from companion.thesis.reading import PRIMES, Reading, conditions
+from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
+from companion.thesis.verdict import VERDICTS
 
 
 def experiment(**given):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from page_cells import code, defined, planned
 
-from lib.chapter_3 import decision
-from lib.shared.grid import Grid
-from neorl.evidence.statistics import estimate
+from companion.chapter_3 import decision
+from companion.shared.grid import Grid
+from neorl.statistics import estimate
 
 MAZE = Grid(("....", ".#..", "...G"))
 GOAL = MAZE.marked("G")[0]

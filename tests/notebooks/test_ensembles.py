@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from lib.chapter_3.ensembles import CHOOSERS, LEARNERS, best_reward, run_ensemble
-from lib.shared.grid import Grid
-from neorl.evidence.statistics import estimate
+from companion.chapter_3.ensembles import CHOOSERS, LEARNERS, best_reward, run_ensemble
+from companion.shared.grid import Grid
+from neorl.statistics import estimate
 
 SMALL = Grid((".......#G", "..#....#.", "S.#....#.", "..#......", ".....#...", "........."))  # of the page
 

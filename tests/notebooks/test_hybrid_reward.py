@@ -6,9 +6,9 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from lib.chapter_3 import hybrid_reward
-from lib.chapter_3.hybrid_reward import KINDS, Game, Learner, play, settled_values
-from lib.shared.grid import Grid
+from companion.chapter_3 import hybrid_reward
+from companion.chapter_3.hybrid_reward import KINDS, Game, Learner, play, settled_values
+from companion.shared.grid import Grid
 
 JUNCTION = Grid(("o.....o", "###.###", "###.###", "###o###"))
 SMALL = Game(rows=("ao.", ".#.", "o.g"), fruits=1, chase=0.5, limit=9)

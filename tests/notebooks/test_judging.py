@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lib.shared import judging
+from companion.shared import judging
 from neorl import Condition, Result
-from neorl.evidence.reading import TO_THE_LETTER, Reading
+from companion.thesis.reading import TO_THE_LETTER, Reading
 
 PAPER_C = judging.papers(Reading(), "networks")
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from page_cells import planned
 
-from lib.chapter_2.maze import (DAYS, GROUPS, LEARNERS, Animal, Maze, Record, Rival, _learn_by_traces, findings, live,
-                                simulate)
-from lib.shared.grid import MOVES
-from lib.shared.tabular import Rates
+from companion.chapter_2.maze import (DAYS, GROUPS, LEARNERS, Animal, Maze, Record, Rival, _learn_by_traces, findings,
+                                      live, simulate)
+from companion.shared.grid import MOVES
+from companion.shared.tabular import Rates
 from neorl.core.calls import execute
 from neorl.core.kernel import new_tuple
 from neorl.core.stream import new_stream

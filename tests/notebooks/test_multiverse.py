@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 from page_cells import source
 
-from lib.shared import report
-from lib.shared.priors import BEYOND, PINNED, WITHIN, LogUniform
-from lib.study import multiverse
-from lib.study.multiverse_figures import LEADING, draw_specification
+from companion.shared import report
+from companion.shared.priors import BEYOND, PINNED, WITHIN, LogUniform
+from companion.study import multiverse
+from companion.study.multiverse_figures import LEADING, draw_specification
 import neorl
 from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_b, network_c, network_d,
                    place_cells, simulate)
 from neorl.agents.rules import AT_EVERY_STEP
-from neorl.evidence.verdict import Claim
-from neorl.evidence.reading import GROUPS, TO_THE_LETTER, Reading, conditions, judge
-from neorl.evidence.statistics import Estimate
+from companion.thesis.verdict import Claim
+from companion.thesis.reading import GROUPS, TO_THE_LETTER, Reading, conditions, judge
+from neorl.statistics import Estimate
 
 
 def test_the_default_reading_is_that_of_the_book():

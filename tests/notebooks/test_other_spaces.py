@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from page_cells import planned
 
-from lib.other_spaces import trials
-from lib.shared.tabular import Rates
+from companion.other_spaces import trials
+from companion.shared.tabular import Rates
 from neorl import Condition, Learning, Policy, Result, Run, Scene, WaterWorld, place_cells
 from neorl.agents.spaces import FAR_RADAR, pilot, reacher, swimmer
 from neorl.core.kernel import function_of

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from page_cells import planned, source
 
-from lib import paper_a
-from lib.shared.report import CALIBRATED, LETTER
+from companion import paper_a
+from companion.shared.report import CALIBRATED, LETTER
 from neorl import Condition, Result, WaterWorld, brownian, place_cells
-from neorl.evidence.reading import LAYERS, SINGLE, TO_THE_LETTER, Reading, conditions, judge
+from companion.thesis.reading import LAYERS, SINGLE, TO_THE_LETTER, Reading, conditions, judge
 
 WORLD = WaterWorld(n_creeps=8, win_reward=5.0, fps=Reading().paper_a_fps)
 

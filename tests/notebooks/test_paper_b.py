@@ -7,13 +7,13 @@ import pytest
 from page_cells import planned, source
 
 import neorl
-from lib.paper_b import figures, trials
-from lib.shared import opening
-from lib.shared.report import CALIBRATED, CLAIMS_OF, LETTER
+from companion.paper_b import figures, trials
+from companion.shared import opening
+from companion.shared.report import CALIBRATED, CLAIMS_OF, LETTER
 from neorl import WaterWorld
-from neorl.evidence.reading import PRIMES, TO_THE_LETTER, Reading, conditions
-from neorl.evidence.statistics import Estimate
-from neorl.evidence.verdict import Claim
+from companion.thesis.reading import PRIMES, TO_THE_LETTER, Reading, conditions
+from neorl.statistics import Estimate
+from companion.thesis.verdict import Claim
 
 ANALYSES = ("per_reset =", "minutes =", "sooner =")  # the lines of a cell from which on it needs results
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from page_cells import planned, source
 
-from lib import paper_c
-from lib.shared.report import CALIBRATED, LETTER
+from companion import paper_c
+from companion.shared.report import CALIBRATED, LETTER
 from neorl import Learning, Policy, Result, Run, WaterWorld, network_b
-from neorl.evidence.reading import TO_THE_LETTER, Reading, conditions, networks
+from companion.thesis.reading import TO_THE_LETTER, Reading, conditions, networks
 from neorl.experiments.condition import Condition
 
 READINGS = {LETTER: TO_THE_LETTER, CALIBRATED: Reading()}

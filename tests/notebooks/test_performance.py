@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lib.performance import bound, rivals, timing
-from lib.shared import notebook
+from companion.performance import bound, rivals, timing
+from companion.shared import notebook
 from neorl import CALIBRATED, Run, WaterWorld, place_cells
 
 STEPS, LIVED = 1_000, 3_000

@@ -2,9 +2,9 @@
 
 import pytest
 
-from lib.shared import pins
-from lib.shared.priors import BEYOND, WITHIN
-from neorl.evidence.reading import TO_THE_LETTER, Reading
+from companion.shared import pins
+from companion.shared.priors import BEYOND, WITHIN
+from companion.thesis.reading import TO_THE_LETTER, Reading
 
 PINNED = [pin for pin in pins.PINS if pin.status == "pinned"]
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from explorer_page import write_page
-from lib.shared.replay import Replay, record
+from companion.shared.replay import Replay, record
 from playwright.sync_api import expect
 
 from neorl import Run, WaterWorld, place_cells

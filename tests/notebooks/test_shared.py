@@ -7,16 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lib.shared import marks, opening, provenance, report, side_by_side
-from lib.shared.fields import superposed_field
-from lib.shared.priors import BEYOND
-from lib.shared.thesis_figures import draw_against_thesis
-from lib.shared.wording import number, scientific, table
+from companion.shared import marks, opening, provenance, report, side_by_side
+from companion.shared.fields import superposed_field
+from companion.shared.priors import BEYOND
+from companion.shared.thesis_figures import draw_against_thesis
+from companion.shared.wording import number, scientific, table
 from neorl import GREEDY, WaterWorld, superpose
 from neorl.drawing.style import linear_light
-from neorl.evidence.reading import TO_THE_LETTER, Reading
-from neorl.evidence.statistics import Estimate
-from neorl.evidence.verdict import VERDICTS, Claim
+from companion.thesis.reading import TO_THE_LETTER, Reading
+from neorl.statistics import Estimate
+from companion.thesis.verdict import VERDICTS, Claim
 
 STYLE_SHEET = (Path(__file__).parents[2] / "book" / "vendor" / "book.css").read_text()
 GROUNDS = ("#ffffff", "#f3f4f5"), ("#121212", "#29313d"), ("#ffffff",)  # pages and boxes, light, dark and printed

@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
-from lib.chapter_3 import decision
-from lib.shared.grid import Grid
+from companion.chapter_3 import decision
+from companion.shared.grid import Grid
 
 CLIFF = Grid(("....", ".CCG"))
 WORTH = {CLIFF.marked("C")[0]: -1.0, CLIFF.marked("C")[1]: -1.0, CLIFF.marked("G")[0]: 1.0}

@@ -6,8 +6,8 @@ import pytest
 import neorl
 from neorl import Condition, Learning
 from neorl.agents import papers
-from lib.paper_b import trials
-from neorl.evidence.reading import Reading
+from companion.paper_b import trials
+from companion.thesis.reading import Reading
 
 READING = Reading(Learning(0.03, 0.8, credit="share"), object_state="object", object_tiled_fraction=1.0,
                   object_beyond="outermost", object_centred=False, place_gain=1.0,

@@ -1,0 +1,78 @@
+"""The contestants of the page on alternatives, what those earn that are not agents, and the claims on them."""
+
+from companion.alternatives.controllers import PLANNED, nearest_green, pd, planner
+from companion.alternatives.living import BOARDS, FPS, bins_of, identity, live
+from companion.alternatives.search import DEEP, best_settings
+from companion.alternatives.tabular_learners import TABULAR
+from companion.shared import judging
+from companion.shared.report import CALIBRATED, LETTER
+from neorl import Condition, brownian, multimodal
+from companion.thesis import claims
+from companion.thesis.reading import PRIMES, TO_THE_LETTER, Reading, networks
+from companion.thesis.verdict import FINAL, RUNS_FOR_A_VERDICT, fewest_runs
+
+INFORMED = {"nearest green": lambda gains: nearest_green(), "PD": pd, "planner": planner}  # given the physics
+BROWNIAN = "Brownian motion"
+SEES = {False: "relative positions", True: "relative positions and velocities"}  # of creeps, whether deep or not
+N_CREEPS, STEPS = 3, 150_000  # of the board and the runs by which claim C5 is judged
+CREEPS_A = 8  # of the board of paper A, by which claim A10 is judged
+
+
+def of_thesis(readings):
+    """The thesis's agents under some readings, {name: `Reading`}: {"agent, reading": `Agent`}."""
+    return {f"{agent}, {name}": made for name, each in readings.items() for agent, made in {
+        "PC + OVC": multimodal(PRIMES, place_gain=each.place_gain, **each.agents),
+        "network D": networks(each)["D"]}.items()}
+
+
+def of_others(settings, board, steps, runs, seed):
+    """What contestants that are not agents of neoRL earn on a board: {name: `Earned`}."""
+    others = {name: make(settings[name]) for name, make in TABULAR.items()}
+    others |= {name: make(settings["PD"]) for name, make in INFORMED.items()}
+    length = {"planner": max(bins_of(steps), round(PLANNED * steps))}
+    return {name: live(each, board, steps=length.get(name, steps), runs=runs, bins=bins_of(steps), seed=seed)
+            for name, each in others.items()}
+
+
+def judge(results, earned):
+    """Claims C5 and A10 by what contestants earn, a list: none unless they and the boards are the page's own.
+
+    Learners count that ran as long as the agents, in as many runs or enough for a verdict.
+    results: {number of creeps: {name: `Result`}} of agents. earned: the same with `Earned`, of all.
+    """
+    rules = {N_CREEPS: _attempts, CREEPS_A: _untrained}
+    return [claim for creeps, rule in rules.items() if creeps in earned
+            for claim in rule(results[creeps], earned[creeps])]
+
+
+def _attempts(results, earned):
+    thesis, board = of_thesis({LETTER: TO_THE_LETTER, CALIBRATED: Reading()}), BOARDS[N_CREEPS]
+    wanted = {name: Condition(agent, board, STEPS, 1) for name, agent in {BROWNIAN: brownian(), **thesis}.items()}
+    ran = results | {name: earned[name].identity for name in TABULAR if name in earned}
+    settings = best_settings()
+    wanted |= {name: identity(make(settings[name]), board) for name, make in TABULAR.items()}
+
+    def rule():
+        learners = _learners((*TABULAR, *DEEP), results, earned)
+        return [claims.judge_alternatives(
+            {name: (each.rate(*FINAL), each.seconds, SEES[name in DEEP]) for name, each in learners.items()},
+            {name: earned[name].rate(*FINAL) for name in thesis}, earned[BROWNIAN].rate(*FINAL), 1 / FPS)]
+
+    return judging.judged(rule, ran, wanted)
+
+
+def _untrained(results, earned):
+    deep = _learners(DEEP, results, earned)
+
+    def rule():
+        return [claims.judge_untrained({name: each.rewards.sum(axis=1) for name, each in deep.items()},
+                                       earned[BROWNIAN].rewards.sum(axis=1))]
+
+    return judging.judged(rule, results, {BROWNIAN: Condition(brownian(), BOARDS[CREEPS_A], STEPS, 1)}) if deep else []
+
+
+def _learners(names, results, earned):
+    """Those that ran as long as Brownian motion, in as many runs as agents or enough: {name: `Earned`}."""
+    steps, enough = results[BROWNIAN].steps, min(fewest_runs(*results.values()), RUNS_FOR_A_VERDICT)
+    return {name: earned[name] for name in names
+            if name in earned and earned[name].steps == steps and len(earned[name].rewards) >= enough}

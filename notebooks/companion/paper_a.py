@@ -1,0 +1,126 @@
+"""What the page on paper A needs beside its experiment: squares of the board, tables and figures.
+
+1. The results under one reading are {key: `Result`}, with the keys ("single", N), ("layer", N), "layers" (all layers in
+   one agent), "control" and ("brownian", 8) (Brownian motion, as long as the agents' runs and as long as the paper's).
+2. The layers are those of the paper's second experiment unless the page has been given others. The thesis's numbers,
+   and the names of its figures, go only with its own maps and 8 creeps.
+"""
+
+import numpy as np
+
+from companion.shared import pins, side_by_side
+from companion.shared.parameters import FINEST
+from companion.shared.priors import BEYOND
+from companion.shared.report import CALIBRATED, LETTER
+from companion.shared.style import FILL, mark
+from companion.shared.wording import table
+from companion.shared.thesis_figures import mark_levels
+from neorl.core.horde import as_vectors
+from neorl.core.maps import NresMap
+from neorl.core.scene import CARDINAL
+from neorl.drawing.curves import draw_sums
+from neorl.drawing.style import GREEN, INK, RED, looks
+from neorl.drawing.value_maps import draw_cells, draw_values
+from companion.thesis.reading import LAYERS, SINGLE
+from companion.thesis.statements import STATEMENTS
+from neorl.statistics import estimate
+from companion.thesis.verdict import FINAL
+from neorl.experiments.run import Run
+
+N_CREEPS = 8  # of the paper
+
+
+def all_of(layers):
+    """The agent with all layers, by name: "all three" for three."""
+    return {2: "both", 3: "all three"}.get(len(layers), "all")
+
+
+def squares_entered(agent, world, steps, runs, seed=0):
+    """The squares of the board in which runs of an agent have been so far, every 0.1 s: (runs, moments).
+
+    The squares are the cells of N90, which divides the board at least as finely as any map of the agents.
+    """
+    squares, found, interval = NresMap(FINEST), [], max(1, round(world.fps / 10))
+    for k in range(runs):
+        recorded = Run(agent, world, seed, k).record(max(interval, steps // interval * interval), every=interval)
+        path = recorded.positions[1:] / world.size
+        new = np.zeros(len(path), int)
+        new[np.unique(squares.encode(path), return_index=True)[1]] = 1
+        found.append(new.cumsum())
+    return np.array(found)
+
+
+def names_of(results):
+    """The agents of the second experiment: {key: name}. results: of one reading."""
+    layers = resolutions_of(results, "layer")
+    return {**{("layer", n): f"N{n}" for n in layers}, "layers": all_of(layers)}
+
+
+def rates(results, share):
+    """Mean reward per second of the second experiment's agents in a share of the run, as a Markdown table."""
+    names = names_of(next(iter(results.values())))
+    return table(["Reading", *names.values()], [
+        [reading, *(estimate(np.mean, each[key].rate(*share)) for key in names)] for reading, each in results.items()])
+
+
+def choices(readings):
+    """What readings choose for agents of place cells, as a Markdown table."""
+    listed = side_by_side.choices(readings, [field for field, choice in BEYOND.items() if "A" in choice.papers])
+    broken = ([pin.choice for pin in pins.broken(reading)] for reading in readings.values())
+    agreements = (f"breaks: {', '.join(dict.fromkeys(each))}" if each else "within the text" for each in broken)
+    return f"{listed}\n| *all in all* | | {' | '.join(agreements)} |"
+
+
+def explorer_conditions(results):
+    """The conditions that the page's Explorer offers: {name: `Result`}. results: {reading: {key: `Result`}}."""
+    offered = {}
+    for reading, suffix in ((CALIBRATED, ""), (LETTER, ", to the letter")):
+        found, layers = results[reading], resolutions_of(results[reading], "layer")
+        seven = _as_in(7, found["layers"], set(layers) == set(LAYERS))
+        offered[f"{seven}: {all_of(layers)} maps{suffix}"] = found["layers"]
+        offered |= {f"{seven}: N{n} alone{suffix}": found["layer", n] for n in layers}
+        offered |= {f"{_as_in(6, found['single', n], n in SINGLE)}: N{n}{suffix}": found["single", n]
+                    for n in resolutions_of(found, "single")}
+    control = results[CALIBRATED]["control"]
+    return offered | {f"{_as_in(6, control)}: Brownian motion": control}
+
+
+def resolutions_of(results, group):
+    """The resolutions of the agents of a group, "single" or "layer": a list."""
+    return [key[1] for key in results if key[0] == group]
+
+
+def _as_in(figure, result, of_paper=True):
+    """The figure of the paper that has a condition, or that it is modelled on."""
+    paper = "Paper A" if of_paper and result.world.n_creeps == N_CREEPS else "After paper A"
+    return f"{paper}, figure {figure}"
+
+
+def draw_together(results):
+    """Draw reward per second of each layer alone, of all together, and summed. results: of one reading.
+
+    With the paper's layers and creeps, a dashed line marks the thesis's level, a multiple of what N7 finally earns.
+    """
+    layers = resolutions_of(results, "layer")
+    alone, together = {f"N{n}": results["layer", n] for n in layers}, results["layers"]
+    total = {2: "sum of both", 3: "sum of the three"}.get(len(layers), "sum of all")
+    sums = [*((name, [result]) for name, result in alone.items()), (all_of(layers), [together]),
+            (total, [*alone.values()])]
+    axes = draw_sums(sums, [*looks(len(layers) + 1), (INK, "-")])
+    if set(layers) == set(LAYERS) and together.world.n_creeps == N_CREEPS:
+        factor = STATEMENTS["A7"].bounds.number
+        mark_levels(axes, {f"thesis: {factor} × N7": factor * results["layer", 7].rate(*FINAL).mean()})
+
+
+def draw_elements(axes, nres_map, places, valences, values):
+    """Draw elements of interest, with valences in free corners, and the action values."""
+    fills = {goal: (GREEN if valence > 0 else RED, FILL * abs(valence))
+             for goal, valence in zip(nres_map.encode(places), valences)}
+    draw_cells(nres_map, fills=fills, ax=axes)
+    draw_values(nres_map, values, ax=axes)
+    cells, side = nres_map.encode(places), 1 / nres_map.resolution
+    for cell, (east, south), valence in zip(cells, as_vectors(np.asarray(values), CARDINAL)[cells], valences):
+        left, top = side * (cell % nres_map.resolution), side * (cell // nres_map.resolution)
+        falling = east * south > 0  # an arrow that leaves the upper right corner free
+        mark(axes, (left + side * (0.9 if falling else 0.1), top + 0.1 * side), f"{valence:+g}".replace("-", "−"),
+             ha="center", va="center")

@@ -1,0 +1,163 @@
+"""The findings on the claims, as pages report them: tables in Markdown, and the record that a page saves.
+
+A record is a JSON file for each page, in the folder ``claims`` of the cache. It has the claims that the page has judged
+under the book's reading ("claims") and under the reading to the letter ("letter"), or, from the page of assumptions,
+the shares of readings within the text under which claims hold ("shares"). `book/ledger.py` makes the page of
+all claims from the records.
+"""
+
+import json
+import re
+from collections import Counter
+from textwrap import indent
+
+import numpy as np
+
+from companion.shared import wording
+from companion.shared.errata import ERRATA
+from companion.shared.marks import DECIDED, NOT_COMPUTED, leads, legend, symbol
+from companion.shared.opening import link
+from companion.thesis.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
+from neorl.statistics import Estimate
+from neorl.experiments.condition import source_digest
+from neorl.files import cache_folder, write_whole
+
+LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
+COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
+LEGEND = (f"{legend()}; without a symbol, no verdict. Numbers: the quantities in italics, with 95\u00a0% intervals "
+          "over runs. Intervals of times can lie below the time, since noise reaches a level early. A claim's name "
+          "leads to what its verdict rests on.")
+BESIDE = "Demonstrations of this book, not counted among the claims:"
+PARTS = ("claims", "letter", "shares")  # of a record
+CLAIMS_OF = {"alternatives": ("A10", "C5"), "chapter_2": ("H1",), "chapter_3": ("T3", "T4"), "chapter_4": ("T5", "T7"),
+             "other_spaces": ("G1", "G2", "G3", "G4"), "paper_a": (*(f"A{n}" for n in range(1, 10)), "A11", "T9"),
+             "paper_b": (*(f"B{n}" for n in range(1, 8)), "T1", "T2", "T6", "T8"), "paper_c": ("C1", "C2", "C3", "C4")}
+MISSING = None, "", "", ""  # a number under one reading that the other has not
+ONCE = {"T5"}  # judged under one reading beside claims that are judged under two
+
+
+def table(claims, letter=()):
+    """Claims as a Markdown table, then demonstrations."""
+    record = {"claims": _kept(claims), "letter": _kept(letter)}
+    some, others = ([claim.name for claim in claims if claim.name in kind] for kind in (CLAIMS, DEMONSTRATIONS))
+    parts = [extract(record, some)] if some else []
+    return "\n\n".join([*parts, *([BESIDE, extract(record, others)] if others else [])])
+
+
+def comparison(judged):
+    """Verdicts under readings, {reading: [Claim, …]}, on claims judged under most of them."""
+    counts = Counter(claim.name for claims in judged.values() for claim in claims)
+    names = sorted(name for name, count in counts.items() if 2 * count > len(judged))
+    cells = {reading: {claim.name: _with_symbol(claim.verdict, wording.number(claim.here.value)) for claim in claims}
+             for reading, claims in judged.items()}
+    return wording.table(["Reading", *names], [[reading, *(found.get(name, "") for name in names)]
+                                               for reading, found in cells.items()])
+
+
+def errata(place=""):
+    """The errata of the source as a Markdown table: all, or those of a place such as "paper A"."""
+    rows = wording.table(["Where", "The thesis says", "Correct"], [each for each in ERRATA if place in each.place])
+    return re.sub(r"\^([A-Z]+)", r"<sup>\1</sup>", rows)
+
+
+def save(page, claims=(), shares=None, letter=()):
+    """Save the findings of a page as JSON, with the digest of the source that computed them.
+
+    A record is complete: nothing is saved unless all claims of the page are judged, under both readings where there are
+    two.
+    shares: {name of a claim: counts of readings within the text}, by verdict in short runs, with their sum "readings",
+    and with "agrees" and "measured" if there are counts at the papers' lengths too. A missing bound is null.
+    """
+    wanted, calibrated, literal = {*CLAIMS_OF.get(page, ())}, _names(claims), _names(letter)
+    if calibrated != wanted or literal and literal != wanted - ONCE:
+        return
+    content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
+               "shares": shares or {}}
+    write_whole(cache_folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())
+
+
+def load(paths=None):
+    """Load records, by default all that are saved, as one: {"claims": {name: …}, "letter": …, "shares": …}."""
+    paths = sorted((cache_folder() / "claims").glob("*.json")) if paths is None else paths
+    records = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
+    return {part: {name: found for record in records for name, found in record.get(part, {}).items()}
+            for part in PARTS}
+
+
+def number(found):
+    """Our number for a claim, with its interval, as text. found: a claim of a record."""
+    return str(Estimate(*(np.nan if each is None else each for each in found["here"])))
+
+
+def verdict(record, name):
+    """The verdict on a claim under the book's reading, or that it is not computed."""
+    return record["claims"].get(name, {"verdict": NOT_COMPUTED})["verdict"]
+
+
+def extract(record, names):
+    """Some claims of a record, as `load` returns it, as a Markdown table without its empty columns, and its legend."""
+    head, rows = wording.filled(COLUMNS, [_cells(record, name) for name in names])
+    head = head if "To the letter" in head else ["Here" if each == "Calibrated" else each for each in head]
+    return f"{wording.table(head, rows)}\n\n{LEGEND}"
+
+
+def evidence(record, names):
+    """A list item for each claim: the sentence that is judged, and a table of the numbers that its rule compares."""
+    return [f"- **{name}** “{STATEMENTS[name].quotation}” ({STATEMENTS[name].place})."
+            + indent(f"\n\n{numbers(record, name)}", "  ").rstrip() for name in names]
+
+
+def numbers(record, name):
+    """The numbers of a claim under both readings, with the bounds that its rule asks for, as a Markdown table or "".
+
+    A number has a mark if it decides: ✓, ✗ or ?. A part of the claim says so in its bounds.
+    """
+    found = {reading: record[part][name] for reading, part in (("Here", "claims"), ("To the letter", "letter"))
+             if name in record[part]}
+    rules = {what: rule for each in found.values() for what, (_, rule, *_) in each["numbers"].items()}
+    rows = [[what, rule, *(_marked(*each["numbers"].get(what, MISSING)) for each in found.values())]
+            for what, rule in rules.items()]
+    head = ["Number", "Rule", *(f"{reading}, {each['runs']} runs or more" for reading, each in found.items())]
+    return wording.table(head, rows) if rows else ""
+
+
+def label(rule):
+    """The label under which the book shows the code of a rule."""
+    return f"rule-{rule.replace('_', '-')}"
+
+
+def _kept(claims):
+    return {claim.name: {"here": _bounded(claim.here), "runs": claim.runs, "verdict": claim.verdict,
+                         "numbers": {what: [_bounded(found), *_decided(found, bounds, role)]
+                                     for what, (found, bounds, role) in claim.numbers.items()}} for claim in claims}
+
+
+def _decided(found, bounds, role):
+    """The bounds of a number in words, its mark and its role; the first two are "" if it is only shown."""
+    if bounds is None:
+        return "", "", role
+    why = f" ({bounds.why})" if bounds.why else ""
+    return f"{'partly if ' if role == 'part' else ''}{bounds}{why}", DECIDED[bounds.decide(found)], role
+
+
+def _marked(found, _, mark, role):
+    return (f"{mark}\u00a0" if mark else "") + number({"here": found}) if role else ""
+
+
+def _names(claims):
+    return {claim.name for claim in claims}
+
+
+def _bounded(found):
+    return [float(each) if np.isfinite(each) else None for each in found]
+
+
+def _cells(record, name):
+    statement = STATEMENTS[name]
+    return [f"**{link(name)}** {statement.text} <small>*{statement.statistic}*</small>", statement.thesis,
+            *(_with_symbol(found["verdict"], number(found)) if (found := record[part].get(name)) else ""
+              for part in ("letter", "claims")), verdict(record, name)]
+
+
+def _with_symbol(verdict, text):
+    return f"{symbol(verdict)}\u00a0{text}" if leads(verdict) else text

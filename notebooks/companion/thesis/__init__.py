@@ -1,0 +1,1 @@
+"""What judges this one thesis: its claims, their rules and verdicts, and readings of the text."""

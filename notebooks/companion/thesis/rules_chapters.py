@@ -1,0 +1,245 @@
+"""The rules that judge the claims of the chapters, and the demonstrations beside them.
+
+`companion.thesis.verdict` defines verdicts.
+"""
+
+import numpy as np
+
+from companion.thesis.statements import POSITIVE
+from neorl.statistics import (HALF_A_MINUTE, Estimate, difference, estimate, exact, least, minutes_sooner, most,
+                              probability_of_improvement, quotient, ratio)
+from companion.thesis.verdict import AFTER_TURN, BEFORE_TURN, FINAL, all_of, any_of, fewest_runs, judged, learned
+
+
+def judge_changes(revalued, wanting, moved=None):
+    """Claim T1 on revaluing elements, and on its page also on moving them.
+
+    revalued: the `Result` of agents that desire red creeps too, from half-time on. wanting: that of agents that desired
+        them from the start, in runs of the same length.
+    moved: mean distances, in board widths, to a desired place in the time after each of its moves between two points:
+        {"experienced": (runs, moves), "ignorant": (runs, moves)}, an even number of moves, 4 or more, of agents with
+        and without experience among creeps. Readings are judged without it, by revaluing alone.
+    Returns a `Claim`.
+    """
+    before, after, from_the_start = (_red_a_minute(result, *share) for result, share in (
+        (revalued, BEFORE_TURN), (revalued, AFTER_TURN), (wanting, AFTER_TURN)))
+    asked = {}
+    if moved:
+        first, later = moved["experienced"][:, :2].mean(axis=1), moved["experienced"][:, 2:].mean(axis=1)
+        asked = {"moved": estimate(_share_of_rise, moved["ignorant"][:, :2].mean(axis=1), first, later)}
+    per_minute = {"before the turn": before, "after it": after, "wanted from the start": from_the_start}
+    return judged("T1", estimate(_share_of_rise, before, from_the_start, after), fewest_runs(revalued, wanting), asked,
+                  {"per minute": {when: estimate(np.mean, rate) for when, rate in per_minute.items()}})
+
+
+def _share_of_rise(start, end, reached, axis):
+    """The share of the way from one mean to another that a third has come."""
+    base = start.mean(axis)
+    return quotient(reached.mean(axis) - base, end.mean(axis) - base)
+
+
+def judge_cost(together, alone, none):
+    """Claim T2, from the cost of an agent's maps together and alone; each (repetitions,), in the same unit per step.
+
+    together: with all maps. alone: a sequence, with each map alone. none: without any.
+    Returns a `Claim`.
+    """
+    return judged("T2", estimate(_cost_ratio, together, none, *alone), len(together))
+
+
+def judge_temporality(whole, short):
+    """Claim T3, from the loss of agents that remember one step less than the process
+    (`notebooks/companion/chapter_3/decision.py`).
+
+    whole, short: {name of a process: reward above chance, (runs,)}, of agents that remember all L steps, and of agents
+    that remember one step less.
+    Returns a `Claim`.
+    """
+    loss = {name: estimate(_loss, whole[name], short[name]) for name in whole}
+    return judged("T3", min(loss.values(), key=lambda each: each.value),
+                  min(map(len, (*whole.values(), *short.values()))), {"loss": loss},
+                  testable=all_of([POSITIVE.decide(estimate(np.mean, above)) for above in whole.values()]))
+
+
+def judge_tables(states, values, entries, filled):
+    """Claim T4, from the tables of learners in processes of many sizes.
+
+    states: S of each process, (sizes,). values, entries, filled: the numbers of a learner's action values, of entries
+    in its model of the transitions, and of those that are not 0; each (runs, sizes).
+    Returns a `Claim`.
+    """
+    value, entry, full = (estimate(np.mean, _powers(np.log(states), np.log(table)))
+                          for table in (values, entries, filled))
+    return judged("T4", entry, len(values), {"values": value}, {"entries that differ from 0": full})
+
+
+def judge_real_time(load, delay, beside=None):
+    """Claim T5, from the load of each window of a run in real time, in cores, and the delay of each step.
+
+    load: (windows,). delay: (windows, steps), the time from when a step was due until it was done, in steps.
+    beside: processes that were ready to run on a core of the machine, on average over the minute before the run, or
+        None if the machine does not count them.
+    Returns a `Claim`.
+    """
+    busy = {} if beside is None else {"processes per core just before": exact(beside)}
+    return judged("T5", estimate(np.mean, load), len(load), {"steps late": exact(delay.max())},
+                  {"share of steps done late": estimate(np.mean, (delay > 1).mean(axis=1)), **busy})
+
+
+def judge_more_maps(additions):
+    """Claim T6, from agents with more maps, compared with agents with some of these.
+
+    additions: {what is added: (more, fewer, brownian)}. more: the `Result` of the agent with more maps. fewer: a
+    sequence of those of the agents with fewer, in runs of the same length. brownian: Brownian motion on the same board.
+    Returns a `Claim`.
+    """
+    known = {name: any_of([learned(result, brownian) for result in fewer])
+             for name, (_, fewer, brownian) in additions.items()}
+    counted = [name for name in additions if known[name] is not False] or list(additions)  # where some have learned
+    sooner = {name: sooner_with_more(*additions[name][:2]) for name in counted}
+    return judged("T6", least(sooner.values()), min(fewest_runs(more, *fewer) for more, fewer, _ in additions.values()),
+                  {"minutes sooner": sooner}, testable=any_of(known.values()))
+
+
+def sooner_with_more(more, fewer):
+    """The lead in minutes of agents with more maps over the quickest with fewer, at half the best one's final level.
+
+    more: a `Result`. fewer: a sequence. Returns an `Estimate`.
+    """
+    level = 0.5 * max(result.rate(*FINAL).mean() for result in fewer)
+    return least([minutes_sooner(more, result, level, HALF_A_MINUTE) for result in fewer])
+
+
+def judge_persistence(agents):
+    """Claim T7, from agents that learn at changes of cell, and the same that learn at every step.
+
+    agents: {which: (persistent, per_step, brownian)}. persistent: the `Result` of agents that learn at changes of cell.
+    per_step: {discount: that of agents that learn at every step}, otherwise the same; the best one counts. brownian:
+    Brownian motion on the same board.
+    Returns a `Claim`.
+    """
+    share, lead = {}, {}
+    for name, (persistent, per_step, brownian) in agents.items():
+        step = max((each.rate(*FINAL) for each in per_step.values()), key=np.mean)
+        share[name] = estimate(_share_of_lead, step, persistent.rate(*FINAL), brownian.rate())
+        lead[name] = estimate(difference, persistent.rate(*FINAL), step)
+    known = {name: learned(persistent, brownian) for name, (persistent, _, brownian) in agents.items()}
+    counted = [name for name in agents if known[name] is not False] or list(agents)
+    return judged("T7", most([share[name] for name in counted]),
+                  min(fewest_runs(persistent, *per_step.values()) for persistent, per_step, _ in agents.values()),
+                  {"gain": {name: share[name] for name in counted}},
+                  part={"lead at changes of cell": {name: lead[name] for name in counted}},
+                  testable=any_of(known.values()))
+
+
+def judge_time_scale(resolutions, stays):
+    """Claim T8, from how long agents stay in the cells of maps of several resolutions.
+
+    resolutions: N of each map, (maps,). stays: the mean time from one change of cell to the next, (runs, maps), in
+    any unit.
+    Returns a `Claim`.
+    """
+    order = np.argsort(resolutions)[::-1]
+    width, time = -np.log(np.asarray(resolutions, float)[order]), np.log(stays)[:, order]
+    power = estimate(np.mean, _powers(width, time))
+    coarser = [f"N{resolutions[at]}" for at in order[1:]]
+    longer = dict(zip(coarser, (estimate(np.mean, each) for each in np.diff(time, axis=1).T)))
+    return judged("T8", power, len(stays), {"longer in the next coarser map": longer},
+                  part={"exponent": power})
+
+
+def judge_latent_learning(agent, rivals, first_reward=11):
+    """Demonstration H1, from {group: record} of animals, each record with ``errors`` (animals, days).
+
+    agent: of neoRL, for the groups "throughout", "never" and "delayed", which is rewarded from day ``first_reward`` on.
+    rivals: {name: the same} of other learners, which are reported and not judged.
+    Returns a `Claim`.
+    """
+    after, next_day = slice(first_reward, None), slice(first_reward, first_reward + 1)
+    lead = _more_errors(agent, "delayed", "throughout", after)
+    at_once = _more_errors(agent, "delayed", "throughout", next_day)
+    worth = _more_errors(agent, "never", "throughout", after)
+    level = Estimate(*(quotient(each, worth.value) for each in most([lead, at_once])))
+    return judged("H1", lead, min(len(record.errors) for record in agent.values()),
+                  shown={"on the day after the first reward": at_once, "effect of reward": worth, **{
+                      f"with {name}": _more_errors(groups, "delayed", "throughout", after)
+                      for name, groups in rivals.items()}},
+                  part={"level": level}, testable=POSITIVE.decide(worth))
+
+
+def _red_a_minute(result, begin, end):
+    return 60 * result.hit_rate(begin, end)[:, 1]
+
+
+def _powers(xs, ys):
+    """The slope of each row of ys over xs."""
+    return np.polyfit(xs, np.asarray(ys).T, 1)[0]
+
+
+def _loss(whole, short, axis):
+    return 1 - ratio(short, whole, axis)
+
+
+def _share_of_lead(step, cell, chance, axis):
+    base = chance.mean(axis)
+    return quotient(step.mean(axis) - base, cell.mean(axis) - base)
+
+
+def _more_errors(groups, more, less, days):
+    return estimate(difference, *(groups[group].errors[:, days].mean(axis=1) for group in (more, less)))
+
+
+def _cost_ratio(together, none, *alone, axis):
+    base = np.median(none, axis)
+    return (np.median(together, axis) - base) / sum(np.median(each, axis) - base for each in alone)
+
+
+def judge_efficiency(agent, table, chance):
+    """Demonstration G1, from the duration of the second trial at a new place, in seconds (runs,).
+
+    agent: of agents. table: of Q-learning on the same cells. chance: of animals that swim at random.
+    Returns a `Claim`.
+    """
+    share, gain = estimate(ratio, agent, table), estimate(difference, chance, agent)
+    return judged("G1", share, min(map(len, (agent, table, chance))), {"seconds less than at random": gain},
+                  part={"share of the quicker of both": estimate(_share_of_less, agent, table, chance)})
+
+
+def _share_of_less(steps, one, other, axis):
+    return quotient(steps.mean(axis), np.minimum(one.mean(axis), other.mean(axis)))
+
+
+def judge_generality(scores):
+    """Demonstration G2, from {world: (agent (runs,), chance (runs,))}, of agents with one learning rule and at random.
+
+    Returns a `Claim`.
+    """
+    better = {world: probability_of_improvement(*pair) for world, pair in scores.items()}
+    return judged("G2", least(better.values()),
+                  min(len(each) for pair in scores.values() for each in pair), {"world": better})
+
+
+def judge_composition(apart, whole, chance):
+    """Demonstration G3, from the steps to a point of a space of two features.
+
+    Steps are multiples of the fewest possible, (runs,).
+
+    apart: of agents with a map for each feature. whole: with one map of both. chance: at random.
+    Returns a `Claim`.
+    """
+    cost, gain = estimate(ratio, apart, whole), estimate(ratio, chance, apart)
+    return judged("G3", cost, min(map(len, (apart, whole, chance))), {"random agents": gain},
+                  part={"share of twice as many, or of random agents'": estimate(
+                      _share_of_less, apart, 2 * whole, chance)})
+
+
+def judge_extension(joined, alone, chance):
+    """Demonstration G4, from `Result`s of runs of the same length.
+
+    joined: agents that gain a second map at half-time. alone: agents that do not. chance: at random.
+    Returns a `Claim`.
+    """
+    gain = estimate(difference, 60 * joined.rate(*FINAL), 60 * alone.rate(*FINAL))
+    kept = estimate(ratio, joined.rate(*AFTER_TURN), alone.rate(*AFTER_TURN))
+    return judged("G4", gain, fewest_runs(joined, alone, chance), {"kept": kept},
+                  testable=learned(alone, chance))

@@ -1,0 +1,169 @@
+"""Statistics, tested on cases worked out by hand and on simulated data."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from companion.study.calibration_targets import time_to_final_level
+from scipy import stats
+
+from neorl import Condition, Result, WaterWorld, place_cells
+from neorl.statistics import (estimate, lead_over_best, lead_over_sum, mean_band, minutes_sooner, minutes_to_own_level,
+                              points, probability_of_improvement, rank_correlation, ratio, resets, tolerance_band,
+                              tolerated_share)
+
+
+def test_the_probability_of_improvement_counts_pairs():
+    assert probability_of_improvement([3, 4], [1, 2]) == (1.0, 1.0, 1.0)
+    assert probability_of_improvement([1, 2], [3, 4]) == (0.0, 0.0, 0.0)
+    assert probability_of_improvement([1, 3], [2, 3]).value == pytest.approx(1.5 / 4)  # 3 > 2; 3 = 3 counts half
+
+
+def test_the_interval_of_a_constant_has_no_width():
+    assert estimate(np.mean, np.full(10, 2.5)) == (2.5, 2.5, 2.5)
+
+
+@pytest.mark.parametrize("statistic, sample", [
+    (np.mean, np.full(2, 3.3834586466165413)), (np.mean, np.full(3, 3.3834586466165413)),
+    (lambda x, axis: -x.mean(axis) ** 2, np.arange(-10.0, 11.0))])
+def test_an_interval_contains_its_value_though_resamples_are_rounded_otherwise_or_biased(statistic, sample):
+    value, low, high = estimate(statistic, sample)
+    assert low <= value <= high
+
+
+def test_a_single_run_has_no_interval():
+    single = estimate(np.mean, np.array([1.0]))
+    assert single.value == 1.0 and math.isnan(single.low) and math.isnan(single.high)
+
+
+def difference(a, b):
+    return estimate(lambda x, y, axis: x.mean(axis) - y.mean(axis), a, b)
+
+
+@pytest.mark.parametrize("estimated, by, spread, truth", [
+    (difference, 0.7, 2.0, 0.7), (probability_of_improvement, 1.0, 1.0, 0.7602)])  # for normal samples, Φ(1/√2)
+def test_an_interval_covers_the_truth_as_often_as_it_says(estimated, by, spread, truth):
+    rng, covered, trials = np.random.default_rng(3), 0, 150
+    for _ in range(trials):
+        low, high = estimated(rng.normal(by, 1.0, 30), rng.normal(0.0, spread, 30))[1:]
+        covered += low <= truth <= high
+    assert 0.88 <= covered / trials <= 0.99
+
+
+def test_the_tolerated_share_is_wilks():
+    """The share between the extremes of 93 and of 46 runs, from tables of Wilks's formula."""
+    assert tolerated_share(93) == pytest.approx(0.95, abs=5e-4)  # two-sided 95 % / 95 %
+    assert tolerated_share(46) == pytest.approx(0.90, abs=2e-3)
+    n, p = 20, tolerated_share(20)  # by Wilks's formula, 1 − n pⁿ⁻¹ + (n − 1) pⁿ = 0.95
+    assert 1 - n * p ** (n - 1) + (n - 1) * p**n == pytest.approx(0.95)
+    assert tolerated_share(1) == 0.0
+
+
+def test_a_tolerance_band_lies_between_order_statistics():
+    runs = np.random.default_rng(0).permutation(np.arange(1.0, 101.0))
+    low, high = tolerance_band(runs[:, None] * [1, 10])
+    beyond = int(low[0])
+    np.testing.assert_array_equal([low, high], [[beyond, 10 * beyond], [101 - beyond, 10 * (101 - beyond)]])
+    assert tolerated_share(100, beyond) >= 0.75 > tolerated_share(100, beyond + 1)
+
+
+@pytest.mark.parametrize("runs", [1, 2, 17])
+def test_with_few_runs_a_tolerance_band_is_their_range(runs):
+    assert tolerated_share(runs) < 0.75 <= tolerated_share(18)
+    curves = np.arange(float(runs))[:, None]
+    np.testing.assert_array_equal(tolerance_band(curves), [[0], [runs - 1]])
+
+
+@pytest.mark.parametrize("runs", [20, 100])
+@pytest.mark.parametrize("law", ["normal", "exponential", "cauchy"])
+def test_a_tolerance_band_holds_its_share_as_often_as_it_says_whatever_the_law(law, runs):
+    law = {"normal": stats.norm, "exponential": stats.expon, "cauchy": stats.cauchy}[law]
+    low, high = tolerance_band(law.rvs(size=(runs, 2_000), random_state=1))
+    enough = (law.cdf(high) - law.cdf(low) >= 0.75).mean()
+    assert 0.94 <= enough <= 1.0
+
+
+def test_the_band_of_a_mean_narrows_with_the_root_of_the_runs():
+    curves = np.random.default_rng(2).normal(size=(400, 3))
+    low, high = mean_band(curves)
+    np.testing.assert_allclose(high - low, 2 * 1.96 / 20, rtol=0.15)
+    assert np.isnan(mean_band(curves[:1])).all()
+
+
+def test_the_time_to_the_final_level_is_that_of_each_run():
+    """There are 400 bins of 0.2 s, and the moving mean is over the last 10 bins: 2 s."""
+    rewards = np.zeros((4, 400), np.float32)
+    rewards[0] = 1  # there from the start, reached once there is a mean
+    rewards[1, 100:] = 1  # a step after 20 s reaches nine tenths 9 bins later
+    rewards[2] = np.arange(400) / 400  # final level 359.5 / 400; the mean of bins 320 to 329 reaches nine tenths of it
+    rewards[3] = -1  # never
+    result = Result(Condition(place_cells([1]), WaterWorld(), 4_000, 4), rewards, np.zeros((4, 400, 2), np.int16))
+    np.testing.assert_allclose(time_to_final_level(result), [2.0, 21.8, 66.0, 80.0])
+
+
+def test_the_mean_reaches_a_level_later_than_the_luckiest_run():
+    """Half of the runs are lucky once, early; the mean only reaches its final level when all have learned."""
+    rewards = np.full((10, 400), 0.01, np.float32)
+    rewards[:5, 20:30], rewards[:, 200:] = 0.2, 0.2
+    result = Result(Condition(place_cells([1]), WaterWorld(), 4_000, 10), rewards, np.zeros((10, 400, 2), np.int16))
+    assert time_to_final_level(result).min() == pytest.approx(6, abs=0.5)
+    found = minutes_to_own_level(result)
+    assert 60 * found.value == pytest.approx(42, abs=1) and 60 * found.high <= 43
+    assert minutes_to_own_level(result, result, of=np.subtract).value == 0
+    assert minutes_to_own_level(replace(result, rewards=-rewards)).value == 80 / 60  # never
+    with pytest.raises(ValueError, match="results must be one, or several with `of`, .*, but are 2 with None"):
+        minutes_to_own_level(result, result)
+
+
+def steps_up(bins, at, runs=10, height=1.0, before=0.0):
+    """Runs that earn `before` in each bin, and `height` per second from the bin `at` on."""
+    rewards = np.full((runs, bins), before, np.float32)
+    rewards[:, at:] = height * 0.2
+    hits = np.zeros((runs, bins, 2), np.int16)
+    return Result(Condition(place_cells([1]), WaterWorld(), 10 * bins, runs), rewards, hits)
+
+
+def test_a_lead_in_time_is_that_of_the_mean_over_runs():
+    early, late = steps_up(400, 100), steps_up(400, 250)
+    assert minutes_sooner(early, late, 0.5) == pytest.approx([0.5] * 3)  # 150 bins of 0.2 s
+    assert minutes_sooner(late, early, 0.5) == pytest.approx([-0.5] * 3)
+    assert minutes_sooner(early, late, 2.0) == (0, 0, 0)  # neither reaches it
+    assert minutes_sooner(early, steps_up(400, 250, height=0.4), 0.5).value == pytest.approx((80 - 20) / 60, abs=0.01)
+    assert np.isnan(minutes_sooner(steps_up(400, 1, runs=1), late, 0.5).low)
+
+
+def test_a_lead_in_time_over_a_sum_is_that_over_what_the_parts_earn_together():
+    whole, parts = steps_up(400, 100), [steps_up(400, 200, height=0.6), steps_up(400, 300, 7, height=0.6)]
+    assert minutes_sooner(whole, parts, 0.5).value == pytest.approx(100 * 0.2 / 60, abs=0.02)  # the first is enough
+    assert minutes_sooner(whole, parts, 1.0).value == pytest.approx(200 * 0.2 / 60, abs=0.02)  # both are needed
+
+
+def test_a_lead_in_time_is_not_made_by_the_noise_of_single_runs():
+    """One run in ten reaches the level early; the mean over runs reaches it only at the step."""
+    noisy = steps_up(400, 200, runs=100)
+    noisy.rewards[::10, 20:40] = 0.2
+    assert minutes_sooner(noisy, steps_up(400, 200, runs=100), 0.5).value == 0
+
+
+def test_resets_and_points_follow_from_rewards_and_creeps():
+    hits = np.zeros((2, 3, 2), np.int16)
+    hits[0], hits[1] = [[3, 1], [2, 0], [0, 4]], [[1, 0], [0, 0], [0, 0]]
+    rewards = np.array([[2 + 5, 2 + 5, -4], [1, 0, 0]], np.float32)
+    result = Result(Condition(place_cells([1]), WaterWorld(win_reward=5.0), 30, 2), rewards, hits)
+    assert list(points(result)) == [0, 1] and list(resets(result)) == [2, 0]
+    with pytest.raises(ValueError, match="win_reward of the world must differ from 0"):
+        resets(Result(Condition(place_cells([1]), WaterWorld(), 30, 2), rewards, hits))
+
+
+def test_leads_and_ratios_are_those_of_means():
+    a, b, c = np.array([4.0, 6.0]), np.array([1.0, 3.0]), np.array([2.0, 2.0, 2.0])
+    assert (ratio(a, b, axis=-1), ratio(a, 0 * b, axis=-1)) == (2.5, 0)
+    assert (lead_over_best(a, b, c, axis=-1), lead_over_sum(a, b, c, axis=-1)) == (3, 1)
+
+
+def test_a_rank_correlation_is_spearmans():
+    samples = [np.random.default_rng(n).normal(n / 2, 1, 8) for n in range(4)]
+    expected = stats.spearmanr(np.repeat(np.arange(4), 8), np.concatenate(samples)).statistic
+    assert rank_correlation(*samples, axis=-1) == pytest.approx(expected)
+    assert rank_correlation(*[np.zeros(3)] * 2, axis=-1) == 0
