@@ -27,7 +27,7 @@ def cells(request):
 def test_a_page_shows_its_experiment_in_one_cell(cells):
     (experiment,) = [cell for cell in cells if "experiment" in tags(cell)]
     assert not HIDDEN & tags(experiment) and 8 <= len(experiment.source.splitlines()) <= 20
-    assert re.search(r"\b(sweep|simulate)\(|\bLearner\(", experiment.source)
+    assert re.search(r"\b(sweep|simulate|Learner|Run)\(", experiment.source)
     drawn = [cells.index(cell) for cell in cells if figure_of(cell)]
     boxes = [cells.index(cell) for cell in cells if "opening.found(" in cell.source]
     assert max([cells.index(experiment), *boxes]) < min(drawn), "the box and the experiment come before figures"

@@ -17,10 +17,10 @@ from neorl.experiments.run import new_bins
 RUNS, STEPS = 2, 3_000
 
 
-def cells(*names, **given):
-    """What cells of the page define, after its agents."""
-    return SimpleNamespace(**planned("other_spaces", "agents", *names, **{
-        "runs": RUNS, "steps": STEPS, "seed": 0, "decisions": 200, **given}))
+def cells(*names, until=("thinkers = {", "def drive_by_table"), **given):
+    """What cells of the page define, up to the lines that run birds and cars unless given otherwise."""
+    return SimpleNamespace(**planned("other_spaces", *names, until=until, **{
+        "runs": RUNS, "steps": STEPS, "seed": 0, "decisions": 200, "simulate": made_up, **given}))
 
 
 def made_up(agent, world, *, steps, runs, seed, changes=(), cache):
@@ -32,8 +32,8 @@ def made_up(agent, world, *, steps, runs, seed, changes=(), cache):
 def page():
     """The page down to its judgement, with short runs in the water maze and with birds, and no others."""
     driven = dict.fromkeys(["neoRL", "Q-learning", "random"], np.full((RUNS, trials.POINTS), 200.0))
-    return cells("spaces-3", "pool-run", "birds", "birds-run", "car", "spaces-4", "judging",
-                 simulate=made_up, driven=driven, played=decided(2_400))
+    return cells("agents", "birds", "car", "pool", "pool-run", "judging", until=["def drive_by_table"],
+                 driven=driven, played=decided(2_400))
 
 
 def decided(decisions):
@@ -89,7 +89,7 @@ def test_cells_of_the_table_of_q_learning():
     ((0.5, 0.5), (0.5, 0.5), 0), ((0.5, 0.5), (0.57, 0.5), 0), ((0.5, 0.5), (0.65, 0.5), 2),
     ((0.5, 0.5), (0.65, 0.65), 4), ((0.1, 0.9), (0.9, 0.9), 15)])
 def test_the_fewest_steps_to_a_bird(here, there, steps):
-    assert trials.fewest(cells("birds").square, here, there) == steps
+    assert trials.fewest(cells("agents", "birds").square, here, there) == steps
 
 
 def test_an_agent_that_has_morphed_birds_makes_any_of_them(page):
@@ -132,7 +132,7 @@ def test_a_claim_is_judged_with_a_verdict_only_of_runs_as_long_as_its_own(page):
 
 
 @pytest.mark.parametrize("changed, names", [
-    (lambda page: cells("spaces-3", traffic=12, simulate=made_up), ["G1", "G3"]),
+    (lambda page: cells("agents", traffic=12), ["G1", "G3"]),
     (lambda page: SimpleNamespace(sailed=page.sailed | {"far radar": page.sailed["radar"]}), ["G1", "G3"]),
     (lambda page: SimpleNamespace(played=decided(2_399)), ["G1", "G3", "G4"]),
     (lambda page: SimpleNamespace(HELD=8), ["G1", "G3", "G4"]),

@@ -3,7 +3,6 @@
 import numpy as np
 
 from companion.shared.panels import add_curves
-from neorl.drawing.curves import draw_curves
 from neorl.drawing.style import CURVES, GREEN, INK, RED, axes_or_new
 from neorl.statistics import estimate
 
@@ -63,12 +62,3 @@ def hits_per_second(result, stretches=30):
     counts = np.array([result.hits[:, each].sum(axis=1) for each in bins])  # (stretches, runs, kinds)
     rates = counts / seconds[:, None, None]
     return middles, {kind: rates[:, :, number].T for number, kind in enumerate(result.world.kinds)}
-
-
-def draw_adapting(rewards, seconds):
-    """Draw reward per second over the run: {way: float64 (runs, segments)}."""
-    segments = next(iter(rewards.values())).shape[1]
-    groups = np.array_split(np.arange(segments), min(10, segments))
-    minutes = [seconds * (group.mean() + 0.5) / 60 for group in groups]
-    curves = {way: np.array([each[:, group].mean(axis=1) for group in groups]).T for way, each in rewards.items()}
-    draw_curves(minutes, curves, "simulated minutes", "reward per second")

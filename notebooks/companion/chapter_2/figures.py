@@ -42,7 +42,7 @@ def draw_errors(by_learner, first_reward):
     """Errors per day of the three groups, one panel per learner: {learner: {group: `Record`}}, with 95 % intervals."""
     width, _ = plt.rcParams["figure.figsize"]
     figure, grid = plt.subplots(len(by_learner), sharex=True, sharey=True, squeeze=False,
-                                figsize=(width, 2.5 * len(by_learner)))
+                                figsize=(width, 1.9 * len(by_learner)))
     for axes, (learner, groups) in zip(grid[:, 0], by_learner.items()):
         days = np.arange(next(iter(groups.values())).errors.shape[1]) + 1
         ends = []
@@ -57,27 +57,7 @@ def draw_errors(by_learner, first_reward):
         axes.ends = ends
     axes.set(xlabel="day", xticks=days[::2])
     for axes in grid[:, 0]:
-        name_ends(axes, axes.ends)
-
-
-def draw_settings(rows, labels):
-    """Results by setting, {setting: {learner: [Estimate for each of ``labels``]}}, one panel per label."""
-    width, _ = plt.rcParams["figure.figsize"]
-    figure, panels = plt.subplots(1, len(labels), sharey=True, squeeze=False, figsize=(width, 0.36 * len(rows) + 1.4))
-    heights = np.arange(len(rows))
-    learners = list(next(iter(rows.values())))
-    for panel, (axes, label) in enumerate(zip(panels[0], labels)):
-        axes.axvline(0, color=INK, linewidth=0.7)
-        for number, (learner, colour) in enumerate(zip(learners, CURVES)):
-            value, low, high = np.array([row[learner][panel] for row in rows.values()]).T
-            at = heights + 0.22 * (number - (len(learners) - 1) / 2)
-            axes.hlines(at, low, high, color=colour, linewidth=1.8)
-            axes.plot(value, at, color=colour, linestyle="none", marker="osD"[number], markersize=4.5, label=learner)
-        axes.set(xlabel=label, yticks=heights, yticklabels=rows)
-        axes.tick_params(axis="y", length=0)
-    axes.invert_yaxis()
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=len(learners), frameon=False,
-                  labelcolor=TEXT, handletextpad=0.1, columnspacing=1.2)
+        name_ends(axes, axes.ends, LOW_PANEL)
 
 
 def draw_sessions(curves, phases, ylabel):
@@ -125,19 +105,10 @@ def draw_action_potential(axon, reversals):
                xlabel="milliseconds", ylabel="share open", ylim=(0, 1), xlim=(0, time[-1]))
 
 
-def draw_firing_rates(currents, counted, fine, expected):
-    """Spikes per second over the current, counted in a simulation and, over finer steps, in closed form."""
-    axes = plt.figure().add_subplot()
-    axes.plot(fine, expected, color=INK, linewidth=1.2)
-    axes.plot(currents, counted, color=AGENT, linestyle="none", marker="o", markersize=5)
-    axes.set(xlabel="current, nanoamperes", ylabel="spikes per second")
-    name_ends(axes, [(counted[-1], "simulated", AGENT), (expected[-1], "closed form", INK)])
-
-
 def draw_parts(time, inflow, potential, spikes, answers, threshold):
     """The signals in the four parts of a neuron over time, one panel each."""
     width, _ = plt.rcParams["figure.figsize"]
-    _, panels = plt.subplots(4, sharex=True, figsize=(width, 1.35 * width), height_ratios=(3, 3, 1, 3))
+    _, panels = plt.subplots(4, sharex=True, figsize=(width, 1.1 * width), height_ratios=(3, 3, 1, 3))
     dendrite, soma, axon, synapse = panels
     dendrite.plot(time, inflow, color=CURVES[5], linewidth=1.0)
     dendrite.axhline(0, color=INK, linewidth=0.7)
@@ -196,7 +167,7 @@ def draw_frames(point, heading, distance, bearing):
 def draw_landmark(seconds, places, heading, landmark, allocentric, seen):
     """An animal's path past a landmark, and the landmark's vector in both frames."""
     width, _ = plt.rcParams["figure.figsize"]
-    figure = plt.figure(figsize=(width, 1.25 * width))
+    figure = plt.figure(figsize=(width, 1.05 * width))
     scene, outer, inner = figure.subplots(3, height_ratios=(4, 3, 3))
     every = max(1, len(seconds) // 16)
     scene.plot(places[:, 1], places[:, 0], color=INK, linewidth=1.0)
@@ -216,12 +187,12 @@ def draw_landmark(seconds, places, heading, landmark, allocentric, seen):
 
 def draw_rate_maps(trajectory, spikes, maps, objects):
     """An animal's path with the spikes of one cell, and rate maps {name: rate}, x first."""
-    path, *panels = new_boards(2, (len(maps) + 2) // 2)
+    path, *panels = new_boards(3, (len(maps) + 3) // 3)
     path.plot(*trajectory.position.T, color=INK, linewidth=0.4, alpha=0.6)
     path.plot(*trajectory.position[spikes > 0].T, color=RED, linestyle="none", marker=".", markersize=3)
-    path.set_title(f"path, spikes of {next(iter(maps))}", fontsize=11)
+    path.set_title(f"path, spikes\nof {next(iter(maps))}", fontsize=11)
     for axes, (name, rate) in zip(panels, maps.items()):
-        _draw_rate(axes, rate.T, f"{name}, {np.nanmax(rate):.0f} Hz")
+        _draw_rate(axes, rate.T, name.replace(" cell", f"\ncell, {np.nanmax(rate):.0f} Hz"))
     path.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     for axes in (path, *panels):
         for x, y in objects:

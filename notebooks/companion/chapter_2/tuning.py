@@ -180,19 +180,6 @@ def information_in_spikes(trains, trajectory, seed=0):
     return found
 
 
-def mistaken(places, phases, tolerance=0.1, far=0.15):
-    """The share of places that modules of grid cells do not distinguish from some distant place.
-
-    Two places, (places, 2), are indistinguishable if their phases, (modules, places, 2), differ by at most
-    ``tolerance`` periods in every module, and distant if they are more than ``far`` apart.
-    """
-    alike = np.linalg.norm(places[:, None] - places, axis=-1) > far
-    for at in phases:
-        apart = np.abs(at[:, None] - at)
-        alike &= np.all(np.minimum(apart, 1 - apart) <= tolerance, axis=-1)
-    return alike.any(axis=1).mean()
-
-
 def lose_track(steps, seed, noise=0.05, reach=0.1):
     """The errors of path integration, by itself and with correction at walls: float64 (2, steps), in box widths.
 

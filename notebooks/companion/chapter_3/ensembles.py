@@ -11,8 +11,7 @@ QV-learning, whose action values are learned from the critic; and ACLA, a learni
 probable after a positive surprise and less after a negative one. The policy of a learner is proportional to
 exp(greediness × preference). The rules:
 
-1. *Majority voting*: the policy is proportional to exp(greediness × votes). Each learner draws its vote from its
-   policy; in the other reading, *majority of favourites*, it votes for the action that it prefers most.
+1. *Majority voting*: the policy is proportional to exp(greediness × votes); a vote is drawn from a learner's policy.
 2. *Rank voting*: the same with the sum of ranks, from 4 for a learner's most preferred action to 1 for its least.
 3. *Boltzmann multiplication*: the product of the policies, to the power of the greediness.
 4. *Boltzmann addition*: the sum of the policies, to the power of the greediness, which is 1.
@@ -23,20 +22,20 @@ from typing import NamedTuple
 import numpy as np
 
 from companion.shared.runs import each_run
-from companion.shared.tabular import greedy_action, learn_q
+from companion.shared.tabular import learn_q
 from neorl.core.calls import execute
 from neorl.core.kernel import kernel
 from neorl.core.stream import randint, new_stream, uniform
 
 LEARNERS = ("Q-learning", "Sarsa", "actor–critic", "QV-learning", "ACLA")
 RULES = ("majority voting", "rank voting", "Boltzmann multiplication", "Boltzmann addition")
-CHOOSERS = (*LEARNERS, *RULES, "majority of favourites", "chance")
-MAJORITY, RANK, MULTIPLICATION, ADDITION, FAVOURITES = range(len(LEARNERS), len(CHOOSERS) - 1)
+CHOOSERS = (*LEARNERS, *RULES)
+MAJORITY, RANK, MULTIPLICATION, ADDITION = range(len(LEARNERS), len(CHOOSERS))
 
 LEARNING_RATES = np.array([0.2, 0.2, 0.1, 0.2, 0.005])
 CRITIC_RATES = np.array([0.0, 0.0, 0.2, 0.2, 0.1])
 DISCOUNTS = np.array([0.9, 0.9, 0.95, 0.9, 0.99])
-GREEDINESS = np.array([1.0, 1.0, 1.0, 1.0, 9.0, 1.6, 0.6, 0.2, 1.0, 1.6, 0.0])  # inverse temperature of each chooser
+GREEDINESS = np.array([1.0, 1.0, 1.0, 1.0, 9.0, 1.6, 0.6, 0.2, 1.0])  # inverse temperature of each chooser
 SLIP, GOAL, BUMP, STEP = 0.2, 100.0, -2.0, -0.1
 LIMIT, BINS = 1_000, 20
 SQUARINGS = 10  # of exp(x / 1024)
@@ -72,11 +71,11 @@ class Maze(NamedTuple):
     goal: int
 
 
-def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
+def run_ensemble(maze, chooser, *, steps, runs, seed=0):
     """Reward per step in each twentieth of ``runs`` runs of ``steps`` steps: float64 (runs, 20).
 
-    maze: a `Grid` that marks one start, "S", and one goal, "G". chooser: one of `CHOOSERS`. doublings: of the
-    chooser's greediness, halved if negative. Run k is the same for any number of runs.
+    maze: a `Grid` that marks one start, "S", and one goal, "G". chooser: one of `CHOOSERS`. Run k is
+    the same for any number of runs.
     """
     edges = np.linspace(0, steps, BINS + 1).astype(int)
     rewards = np.zeros((runs, BINS))
@@ -86,7 +85,7 @@ def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
         preferences = np.zeros((len(LEARNERS), maze.states, 4))
         preferences[-1] = 1 / 4
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
-        execute(_run, table, CHOOSERS.index(chooser), doublings, edges, stream, preferences,
+        execute(_run, table, CHOOSERS.index(chooser), edges, stream, preferences,
                 np.zeros((len(LEARNERS), maze.states)), np.zeros(4), np.zeros(4), rewards[run])
 
     each_run(run_one, runs)
@@ -94,11 +93,11 @@ def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
 
 
 @kernel
-def _run(maze, chooser, doublings, edges, stream, preferences, critics, weight, policy, rewards):
+def _run(maze, chooser, edges, stream, preferences, critics, weight, policy, rewards):
     """Run until the last edge; weight and policy (4,) are working memory."""
     start, goal = maze.start, maze.goal
     state_tm1, age = start, 0
-    action_tm1 = _choice(preferences, state_tm1, chooser, doublings, stream, weight, policy)
+    action_tm1 = _choice(preferences, state_tm1, chooser, stream, weight, policy)
     for part in range(rewards.shape[0]):
         for _ in range(edges[part], edges[part + 1]):
             direction = randint(stream, 4) if uniform(stream) < SLIP else action_tm1
@@ -108,7 +107,7 @@ def _run(maze, chooser, doublings, edges, stream, preferences, critics, weight, 
             rewards[part] += reward
             begins = arrived or age == LIMIT
             state_next = start if begins else state_t
-            action_t = _choice(preferences, state_next, chooser, doublings, stream, weight, policy)
+            action_t = _choice(preferences, state_next, chooser, stream, weight, policy)
             for learner in range(preferences.shape[0]):
                 if chooser == learner or chooser >= MAJORITY:
                     _learn(learner, preferences[learner], critics[learner], state_tm1, action_tm1, reward, state_t,
@@ -150,7 +149,7 @@ def _learn(learner, preference, critic, state_tm1, action_tm1, reward_t, state_t
 
 
 @kernel
-def _choice(preferences, state, chooser, doublings, stream, weight, policy):
+def _choice(preferences, state, chooser, stream, weight, policy):
     """An action drawn from the chooser's policy. `weight` is what a rule adds up over learners."""
     weight[:] = 0.0
     for learner in range(preferences.shape[0]):
@@ -160,8 +159,6 @@ def _choice(preferences, state, chooser, doublings, stream, weight, policy):
             _to_policy(policy)
         if chooser == MAJORITY:
             weight[_drawn(policy, stream)] += 1
-        elif chooser == FAVOURITES:
-            weight[greedy_action(preferences[learner, state], stream)] += 1
         elif chooser == RANK:
             for action in range(4):
                 for other in range(4):  # tied actions share their ranks
@@ -174,11 +171,6 @@ def _choice(preferences, state, chooser, doublings, stream, weight, policy):
             weight[action] *= GREEDINESS[chooser]
     if chooser != ADDITION:
         _to_policy(weight)
-    for action in range(4):
-        for _ in range(doublings):
-            weight[action] *= weight[action]
-        for _ in range(-doublings):
-            weight[action] = np.sqrt(weight[action])
     return _drawn(weight, stream)
 
 
