@@ -1,4 +1,5 @@
 # make book   compute every notebook and build the book   RUNS=10 runs per condition; 4 is a quick look, 100 the papers' scale
+#                                                         READING=letter for the reading of the thesis to the letter
 #                                                         JOBS=2 notebooks at a time, of up to 4 GB each
 # make test   run the tests                               WORKERS=4 processes, since tests of pages wait for a browser
 # make package test the package as installed from WHEEL=dist/*.whl, or from one that is built, with ARGS="of pytest"
@@ -8,7 +9,7 @@
 # make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
 # make fuzz   try random kernels of a user's that write and return wild values; SETTINGS=1000 of them
 # make lab    open the notebooks in JupyterLab, which saves pages without outputs
-# make record record the claims of the last build, of RUNS=100, in the file that the book and the README show
+# make record record the claims of the last build, of RUNS=100 and either reading, in the file that book and README show
 # make readme write the recorded claims into the README
 # make bench  measure the speed of the kernels
 # make wheel build the wheel to publish, dist/*.whl, which carries the kernels as WebAssembly modules
@@ -21,6 +22,7 @@ SAMPLE ?= 20
 SEED ?=
 SETTINGS ?= 1000
 RUNS ?= 10
+READING ?= calibrated
 STEPS ?=
 JOBS ?= 2
 WORKERS ?= 4
@@ -31,12 +33,12 @@ export PYTHONUNBUFFERED := 1
 # Where the environment forbids it, every process would compile all modules again that it imports, for seconds.
 unexport PYTHONDONTWRITEBYTECODE
 
-# Pages of the book. Long ones come first. Pages that measure times are computed alone, after the others, and the
-# conclusion, which reads the findings of all, comes last.
+# Pages of the book. Long ones come first. A page that measures times is computed alone, after the others, and the
+# conclusion, which measures times too and reads the findings of all, comes last.
 CHAPTERS := book/chapters
 NAMES := $(notdir $(basename $(wildcard notebooks/*.ipynb)))
-LONG := assumptions beyond_agents calibration paper_a paper_c
-TIMED := paper_b performance
+LONG := assumptions beyond_agents calibration paper_a paper_b paper_c
+TIMED := performance
 CONCLUSION := chapter_5
 TOGETHER := $(filter $(NAMES),$(LONG)) $(filter-out $(LONG) $(TIMED) $(CONCLUSION),$(NAMES))
 SOURCES := $(shell find neorl notebooks/companion -type f -not -path '*/__pycache__/*') environment.txt \
@@ -56,21 +58,22 @@ book: .venv/ready
 # Threads of linear algebra that wait for each other beside another notebook took fifty times as long as one thread.
 book test: export OPENBLAS_NUM_THREADS := 1
 $(CHAPTERS)/%.ipynb: notebooks/%.ipynb $(SOURCES) $(CHAPTERS)/.parameters
-	@$(BIN)/python book/compute.py $< --runs $(RUNS) $(if $(STEPS),--steps $(STEPS))
+	@$(BIN)/python book/compute.py $< --runs $(RUNS) $(if $(STEPS),--steps $(STEPS)) --reading $(READING)
 
 $(call page,$(TIMED)): | $(call page,$(TOGETHER))
-$(call page,$(lastword $(TIMED))): | $(call page,$(firstword $(TIMED)))
 $(call page,$(CONCLUSION)): $(call page,$(filter-out $(CONCLUSION),$(NAMES)))
 
 # Changes only if the parameters do.
 $(CHAPTERS)/.parameters: FORCE
 	@case "$(RUNS)-$(STEPS)" in *[!0-9-]*|0*|-*|*-0*) \
 	    echo "RUNS and STEPS must be integers of at least 1, but are '$(RUNS)' and '$(STEPS)'"; exit 1;; esac
+	@case "$(READING)" in calibrated|letter) ;; *) \
+	    echo "READING must be 'calibrated' or 'letter', but is '$(READING)'"; exit 1;; esac
 	@mkdir -p $(@D)
-	@echo "$(RUNS) $(STEPS)" | cmp -s - $@ || echo "$(RUNS) $(STEPS)" > $@
+	@echo "$(RUNS) $(STEPS) $(READING)" | cmp -s - $@ || echo "$(RUNS) $(STEPS) $(READING)" > $@
 
 $(CHAPTERS)/claims-table.md: $(call page,$(TOGETHER) $(filter $(NAMES),$(TIMED) $(CONCLUSION))) $(wildcard book/*.py) \
-    book/rules.toml book/_toc.yml $(wildcard book/record.*)
+    $(wildcard book/*.toml) book/_toc.yml $(wildcard book/record.*)
 	@$(BIN)/python book/tables.py
 
 # Readers of the last book have it until the next is complete.

@@ -5,7 +5,6 @@ papermill runs the notebook. Its page, its figures, its widgets and the record o
 """
 
 import argparse
-import math
 import os
 import re
 import shutil
@@ -40,6 +39,7 @@ def main():
     parser.add_argument("notebook", type=Path)
     parser.add_argument("--runs", type=int, help="runs per condition")
     parser.add_argument("--steps", type=int, help="steps per run (by default the paper's)")
+    parser.add_argument("--reading", help="of the thesis, \"letter\" or by default \"calibrated\"")
     chosen = vars(parser.parse_args())
     notebook = chosen.pop("notebook")
     os.environ["NEORL_CACHE"] = str(cache_folder())  # notebooks run in their own folder
@@ -63,7 +63,7 @@ def compute(notebook, parameters):
     Raises PapermillExecutionError for a cell that raises, DeadKernelError for a kernel that dies.
     """
     began = time.time()
-    parameters = with_points(notebook, parameters)
+    parameters = of_notebook(notebook, parameters)
     print(f"{notebook.name}: {', '.join(f'{name} {value}' for name, value in parameters.items())}", flush=True)
     work = CHAPTERS / f".{notebook.stem}"  # always the same place, so that the remains of a killed process are cleared
     shutil.rmtree(work, ignore_errors=True)
@@ -93,14 +93,13 @@ def compute(notebook, parameters):
     print(f"{notebook.name}: {time.time() - began:.0f} s", flush=True)
 
 
-def with_points(notebook, parameters):
-    """Parameters, and for the page of assumptions the number of readings: 128 with 100 runs and 16 with 10.
+def of_notebook(notebook, parameters):
+    """Parameters of a notebook, without a reading if it has none.
 
-    Raises ValueError for a parameter that the notebook does not have; papermill itself would ignore it.
+    Raises ValueError for another parameter that the notebook does not have; papermill itself would ignore it.
     """
     known = papermill.inspect_notebook(str(notebook))
-    if "points" in known and "runs" in parameters:
-        parameters = parameters | {"points": 2 ** max(2, int(math.log2(1.6 * parameters["runs"])))}
+    parameters = {name: value for name, value in parameters.items() if name in known or name != "reading"}
     for name, value in parameters.items():
         if name not in known:
             raise ValueError(f"a parameter of {notebook.name} must be {', '.join(known)}, but is {name}, {value!r}")

@@ -1,45 +1,47 @@
 """The page of all claims, and what the first page says of them, from the records of `companion.shared.report`.
 
-1. The headline counts the claims about agents, and apart from them those that a proof or a count settles, that are
-   about this book's code, or that report attempts. It is the same wherever it stands.
-2. A strip with a square for each claim and a tally come next, then a line for each claim: its number in the thesis and
-   here, and the verdict. A click opens what the verdict rests on.
+1. The page answers first (`answer.py`), and then has a line for each claim: the number that decides, here and in the
+   thesis, and the verdict. A click opens what the verdict rests on.
+2. The first page has the headline of the answer, and a strip with a square for each claim.
 3. All of it shows the committed record (`record.py`). A build says in a sentence how its own verdicts compare.
-4. Pages are MyST Markdown. The strip and the lines are HTML, since they have a shape of their own.
+4. Pages are MyST Markdown. The figure, the strips and the lines are HTML, since they have a shape of their own.
 """
 
 from collections import Counter
 from html import escape
 
-from companion.shared import marks, report, wording
+import curves
+from answer import APART, CAPTION, dependence, figure, headline, sections
+from companion.shared import marks, report
 from companion.shared.opening import anchor
-from companion.shared.priors import WITHIN
-from companion.study.calibration_targets import CLAIMS as FITTED
-from companion.thesis.reading import TO_THE_LETTER, Reading
+from companion.study import sensitivity
 from companion.thesis.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS
-from companion.thesis.verdict import RUNS_FOR_A_VERDICT
 
-SHARES = {"reproduced": "Reproduce it, in short runs", "undecided": "Undecided, in short runs",
-          "contradicted": "Contradict it, in short runs"}
 # Verdicts of a build that do not contradict the record, in words.
 OPEN = {"undecided": "undecided"} | dict.fromkeys(("no verdict", report.NOT_COMPUTED), "without a verdict")
 CHAPTERS = {"A": "Paper A: maps of one space", "B": "Paper B: modalities", "C": "Paper C: networks of desires",
             "T": "The thesis as a whole"}
-APART = tuple(name for name in CLAIMS if name not in AGENTS)
-KINDS = {"proof": ("Decided by proof", ""), "report": ("The author’s report", ""),  # headings, and words in a sentence
-         "counting": ("Decided by counting", " (by counting)"), "code": ("This book’s code", " (this book’s code)")}
+KINDS = {"proof": "Counted apart: decided by proof", "report": "Counted apart: the author’s report",
+         "counting": "Counted apart: decided by counting", "code": "Counted apart: this book’s code"}
+DECIDES = {"undecided": "?", "not testable": "?"}  # the mark of the number that a verdict rests on, else ✗ or ✓
 
 
 def page(record, build):
-    """The strips, the tallies and the claims, in MyST Markdown. record, build: see `headline` and `beside`."""
-    parts = [f"{headline(record)} {beside(record, build)}", strip(record, AGENTS),
-             tally(record, AGENTS, "claims about agents"), strip(record, APART),
-             tally(record, APART, "claims counted apart")]
+    """The answer and the claims, in MyST Markdown. record, build: see `headline` and `beside`."""
+    found = sensitivity.shipped()
+    parts = [headline(record), dependence(record, found), figure(record),
+             f"Verdicts: {legend(record)}. {CAPTION} {beside(record, build)}".rstrip(), *sections(record, found),
+             "## Claim by claim"]
     groups = {title: [name for name in AGENTS if name[0] == letter] for letter, title in CHAPTERS.items()}
-    groups |= {f"Counted apart: {title[0].lower()}{title[1:]}": _of_kind(kind) for kind, (title, _) in KINDS.items()}
+    groups |= {title: [name for name in APART if STATEMENTS[name].kind == kind] for kind, title in KINDS.items()}
     for title, names in (groups | {"Beside the claims: demonstrations": DEMONSTRATIONS}).items():
-        parts += [f"## {title}", *(_claim(record, name) for name in names)]
-    return "\n\n".join(parts) + "\n"
+        parts += [f"### {title}", *(_claim(record, name, found) for name in names)]
+    return "\n\n".join(filter(None, parts)) + "\n"
+
+
+def legend(record):
+    """The symbols of the verdicts that some claim of a record has, with their meaning, as HTML."""
+    return " · ".join(f"{marks.html(verdict)}\u00a0{marks.explained(verdict)}" for verdict in counts(record, CLAIMS))
 
 
 def front(record):
@@ -49,27 +51,9 @@ def front(record):
 
 def squares(record, build):
     """The strips of claims, the meaning of their symbols, and how a build compares, as HTML for the first page."""
-    legend = " · ".join(f"{marks.html(verdict)}\u00a0{marks.explained(verdict)}" for verdict in counts(record, CLAIMS))
     strips = [strip(record, some, "claims.html") for some in (AGENTS, APART)]
-    return "\n".join([*strips, f"<p>{legend}</p>", f"<p>{beside(record, build)}</p>" * (build is not record)]) + "\n"
-
-
-def headline(record):
-    """What was found, in a few sentences. record: as `report.load` returns it, or committed."""
-    by_verdict = counts(record, AGENTS)
-    if not {*by_verdict} - {"no verdict", report.NOT_COMPUTED}:
-        return (f"This book judges the thesis’s {len(AGENTS)} claims about agents. Verdicts need {RUNS_FOR_A_VERDICT} "
-                "runs of each condition, and this build has fewer.")
-    held = {name for name in AGENTS if report.verdict(record, name) == "reproduced"}
-    fitted, others = ([name for name in AGENTS if (name in FITTED) == used] for used in (True, False))
-    letter, book = TO_THE_LETTER.choices, Reading().choices
-    departing = sum(book[name] != letter[name] for name in WITHIN)
-    to_the_letter = counts({"claims": record["letter"]}, AGENTS).get("reproduced", 0)
-    return (f"Of the thesis’s {len(AGENTS)} claims about agents, {_listed(by_verdict)} ({runs(record)} runs of each "
-            f"condition). {len(fitted)} of the {len(AGENTS)} were used to choose the reading, in which "
-            f"{departing} of {len(WITHIN)} open choices depart from the letter: {len(held & {*fitted})} of these "
-            f"{len(fitted)} claims and {len(held & {*others})} of the other {len(others)} are reproduced. To the "
-            f"letter: {to_the_letter} reproduced. {_apart(record)}")
+    lines = [f"<p>{legend(record)}</p>", f"<p>{beside(record, build)}</p>" * (build is not record)]
+    return "\n".join([*strips, *lines]) + "\n"
 
 
 def beside(record, build):
@@ -98,12 +82,6 @@ def runs(record):
     return found[0][0] if found else 0
 
 
-def tally(record, names, what):
-    """The number of some claims with each verdict, as a line of Markdown. what: they are."""
-    return f"{len(names)} {what}: " + " · ".join(f"{marks.html(verdict)} {count} {marks.explained(verdict)}"
-                                                 for verdict, count in counts(record, names).items()) + "."
-
-
 def strip(record, names, address=""):
     """An HTML list with a square for each of some claims, its symbol in its colour, that links to the claim.
 
@@ -118,56 +96,39 @@ def strip(record, names, address=""):
     return f'<ul class="claims-strip" aria-label="Verdict of each claim">{"".join(squares)}</ul>'
 
 
-def _of_kind(kind):
-    return [name for name in APART if STATEMENTS[name].kind == kind]
-
-
-def _apart(record):
-    """The verdicts on the claims that are not about agents, in a sentence."""
-    groups = {}
-    for kind, (_, words) in KINDS.items():
-        for name in _of_kind(kind):
-            groups.setdefault((words, report.verdict(record, name)), []).append(name)
-    parts = [f"{', '.join(names)}{words} {verdict}" for (words, verdict), names in groups.items()]
-    return f"Counted apart: {'; '.join(parts)}."
-
-
-def _listed(by_verdict):
-    """Counts in words: "11 are reproduced, 4 partly and 3 undecided"."""
-    parts = [f"{count} {verdict}" for verdict, count in by_verdict.items()]
-    first, *between = parts[:-1] or parts
-    count, verdict = first.split(" ", 1)
-    listed = ", ".join([f"{count} {'is' if count == '1' else 'are'} {verdict}", *between])
-    return listed + f" and {parts[-1]}" * (len(parts) > 1)
-
-
-def _claim(record, name):
+def _claim(record, name, of_table):
     """A claim in a line, which opens to the sentence that is judged and all that its verdict rests on."""
     statement, found, verdict = STATEMENTS[name], record["claims"].get(name), report.verdict(record, name)
-    numbers = f"Thesis: {escape(statement.thesis)}" + (f" · Here: {report.number(found)}" if found else "")
     reason = f" <small>{marks.REASONS[verdict]}</small>" if verdict in marks.REASONS else ""
-    cells = [f"<b>{name}</b>", f"{escape(statement.text)} <small>{numbers}</small>",
+    cells = [f"<b>{name}</b>", f"{escape(statement.text)} <small>{escape(_deciding(name, found))}</small>",
              f"{marks.html(verdict)}\u00a0{verdict}{reason}"]
     line = "".join(f"<span>{cell}</span>" for cell in cells)
     return "\n\n".join([f'<details class="claim"><summary>{line}</summary>\n<div id="{anchor(name)}">',
-                        f"“{statement.quotation}” ({statement.place}).", *_evidence(record, name),
+                        f"“{statement.quotation}” ({statement.place}).", *_evidence(record, name, of_table),
                         "</div>\n</details>"])
 
 
-def _evidence(record, name):
+def _deciding(name, found):
+    """The number that decides a verdict, with what it is and what the claim needs, and the thesis's, as text."""
+    statement = STATEMENTS[name]
+    thesis = f"Thesis: {statement.thesis}"
+    if not found:
+        return f"{statement.statistic}. {thesis}"
+    wanted = DECIDES.get(found["verdict"], "✓" if found["verdict"] == "reproduced" else "✗")
+    deciding = [(what, number, bounds) for what, (number, bounds, mark, _) in found["numbers"].items()
+                if mark == wanted and not bounds.startswith("partly")]
+    if any(what == statement.statistic for what, *_ in deciding) or not deciding:
+        return f"{statement.statistic}: {report.number(found)}. {thesis}"
+    what, number, bounds = deciding[0]
+    needed, _, _ = bounds.partition(" (")
+    return f"{statement.statistic}; {what}: {report.number({'here': number})}, needed: {needed}. {thesis}"
+
+
+def _evidence(record, name, of_table):
     """What a verdict rests on: the numbers of its rule, links to its figure and rule, and the readings that agree."""
-    statement, share = STATEMENTS[name], record["shares"].get(name)
-    parts = [numbers] if (numbers := report.numbers(record, name)) else []
+    statement = STATEMENTS[name]
+    parts = [report.numbers(record, name)]
     if name in record["claims"]:
         parts.append(f"Shown in {{ref}}`this figure <{statement.figure}>`, judged by "
                      f"{{ref}}`this rule <{report.label(statement.rule)}>`.")
-    if share:
-        agrees = _share(share["agrees"], share["measured"]) if share.get("measured") else ""
-        parts.append(wording.table(["Agree, in long runs", *SHARES.values()],
-                                   [[agrees, *(_share(share[each], share["readings"]) for each in SHARES)]]))
-    return parts
-
-
-def _share(count, total):
-    """A count of a total, from 20 on as a percentage, as text."""
-    return f"{count} of {total}" if total < 20 else f"{100 * count / total:.0f}\u00a0% of {total}"
+    return [part for part in (*parts, curves.panels(of_table, name)) if part]

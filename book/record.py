@@ -1,7 +1,8 @@
 """Record what a build with 100 runs has found, as `record.json`: ``make record``, after ``make book RUNS=100``.
 
 1. The record has the claims of all pages with their numbers, runs and verdicts, under both readings, and the shares of
-   readings. It is committed, and what the front page, the page of claims and the README show.
+   readings. It is committed, and what the front page, the page of claims and the README show. A build to the letter,
+   ``make book RUNS=100 READING=letter``, replaces the claims to the letter, and any other build all else.
 2. It holds as long as runs have the same bits and the readings the same choices. So it has a *sample*, a run of each of
    some conditions under both readings, which a test recomputes (`moved`).
 """
@@ -22,7 +23,7 @@ from compute import ROOT, records
 from companion.shared import report
 from verify import recomputed
 
-from companion.thesis.reading import LENGTHS, TO_THE_LETTER, Reading, conditions
+from companion.thesis.reading import LENGTHS, READINGS, conditions
 from companion.thesis.statements import AGENTS, STATEMENTS
 from neorl.experiments.condition import source_digest
 from neorl.files import write_whole
@@ -30,7 +31,7 @@ from neorl.files import write_whole
 RECORD = ROOT / "book" / "record.json"
 RUNS = 100
 REMEDY = f"make book RUNS={RUNS} && make record"
-READINGS = {report.LETTER: TO_THE_LETTER, report.CALIBRATED: Reading()}
+READ = [name for name in AGENTS if name not in report.CLAIMS_OF["alternatives"]]  # by pages that run a reading
 SAMPLED = (("brownian", 8), ("layer", 7), "layers", ("single", 50), ("place", "all"), ("objects", "all"), "both",
            *(("network", name) for name in "ABCD"), "revalued")
 SEED = 0  # of the pages
@@ -40,10 +41,16 @@ def main():
     found = report.load(records().values())
     if changed := output("git", "status", "--porcelain", "--", ".", f":!{RECORD.relative_to(ROOT)}"):
         sys.exit(f"the work tree must be clean, so that the commit has all that was computed, but it has:\n{changed}")
-    if reason := unfit(found, {json.loads(path.read_text(encoding="utf-8"))["source"] for path in records().values()}):
+    sources = {json.loads(path.read_text(encoding="utf-8"))["source"] for path in records().values()}
+    before = of_book({"letter": {}})
+    if "claims" in before and not few(found["letter"], READ) and sources == {source_digest()}:
+        content = before | rounded({"letter": found["letter"]})
+    elif reason := unfit(found, sources):
         sys.exit(f"{reason}: {REMEDY}")
-    about = {"commit": output("git", "rev-parse", "--short", "HEAD"), "date": f"{datetime.date.today()}"}
-    content = about | rounded(found) | {"sample": sample()}
+    else:
+        about = {"commit": output("git", "rev-parse", "--short", "HEAD"), "date": f"{datetime.date.today()}"}
+        content = about | rounded(found | {"letter": before["letter"]})
+    content |= {"sample": sample()}
     write_whole(RECORD, (json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False) + "\n").encode())
 
 
@@ -58,17 +65,21 @@ def unfit(found, sources):
     sources: digests of the sources that computed them.
     """
     missing = [name for name in STATEMENTS if name not in found["claims"]]
-    few = [name for name in AGENTS if not missing and found["claims"][name]["runs"] < RUNS]
     if missing or not found["shares"]:
         return f"every claim must be judged, but not {', '.join(missing) or 'under other readings'}"
-    if few:
-        return f"claims about agents must have {RUNS} runs of each condition, but not {', '.join(few)}"
+    if short := few(found["claims"], AGENTS):
+        return f"claims about agents must have {RUNS} runs of each condition, but not {', '.join(short)}"
     return "" if sources == {source_digest()} else "every page must be computed with the present source"
+
+
+def few(claims, names):
+    """The names of claims that are not among some, or have fewer than 100 runs: a list."""
+    return [name for name in names if claims.get(name, {"runs": 0})["runs"] < RUNS]
 
 
 def sample():
     """The first run of each condition under each reading, as `summary` has it: {reading: {condition: [...]}}."""
-    wanted = {name: conditions(reading, LENGTHS["B"], 1, SEED) for name, reading in READINGS.items()}
+    wanted = {report.NAMES[name]: conditions(reading, LENGTHS["B"], 1, SEED) for name, reading in READINGS.items()}
     return {name: {key if isinstance(key, str) else " ".join(map(str, key)): summary(made[key]) for key in SAMPLED}
             for name, made in wanted.items()}
 

@@ -2,7 +2,8 @@
 
 It continues the existing table; ``--anew`` starts a new one. ``--refine 20`` searches near the leading readings for 20
 minutes instead, ``--screen 12`` runs promising readings again, ``--rescale 2 4`` then tries these scales for the
-leading one, and ``--confirm 20 --fresh-runs 100`` runs the leading ones again, and once more if it is called again.
+leading one, ``--confirm 20 --fresh-runs 100`` runs the leading ones again, and once more if it is called again, and
+``--set-back 10`` runs the default reading with one choice at a time set back to the letter.
 ``--memory 20 45`` confines refining and confirming to such memories. ``--try learning_rate=0.01,memory=30`` first adds
 the default reading with these choices, so that a search can begin there. With ``--minutes 0`` nothing else is run. It
 can be interrupted at any time: the file is written whenever readings are finished, and results are cached as those of
@@ -37,6 +38,9 @@ def main():
     if chosen.screen:
         table = calibration.screen(table, chosen.screen, seed=chosen.seed)
         keep(table)
+    elif chosen.set_back:
+        table = calibration.set_back(table, chosen.set_back, seed=chosen.seed)
+        keep(table)
     elif chosen.refine:
         table = calibration.refine(chosen.refine, table, chosen.refined_runs, seed=chosen.seed, keep=keep,
                                    memories=chosen.memory)
@@ -65,6 +69,8 @@ def parse_arguments():
     parser.add_argument("--rescale", type=float, nargs="*", default=(),
                         help="scales of desires to try in paper C, for the leading one (none)")
     parser.add_argument("--screen", type=int, metavar="RUNS", help="run promising readings of the waves again instead")
+    parser.add_argument("--set-back", type=int, metavar="RUNS",
+                        help="run the default reading with single choices of the letter instead")
     parser.add_argument("--confirm", type=int, default=12, help="nearest readings to run again at the end (12)")
     parser.add_argument("--fresh-runs", type=int, default=20, help="runs per condition of these (20)")
     parser.add_argument("--seed", type=int, default=0)

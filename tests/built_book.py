@@ -97,9 +97,14 @@ def test_the_page_of_claims_has_all_of_them_and_its_links_lead_somewhere(open_pa
         assert f'id="{target}"' in (HTML / (name or "claims.html")).read_text(encoding="utf-8")
 
 
-def test_the_chapter_on_assumptions_has_a_curve_for_every_claim_that_readings_matter_for(open_page):
-    page = open_page(HTML, "chapters/assumptions.html")
-    assert page.locator("figure[id^=fig-spec] img").count() == 19
+def test_the_answer_has_a_row_for_each_claim_and_fits_on_a_phone(open_page):
+    page = open_page(HTML, "claims.html")
+    rows = page.locator("table.answer tbody a")
+    assert sorted(row.split()[0] for row in rows.all_inner_texts()) == sorted(CLAIMS)
+    page.set_viewport_size({"width": 400, "height": 800})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 400
+    rows.first.click()
+    expect(page.locator("details.claim[open]")).to_have_count(1)
 
 
 def test_the_sample_of_calibrated_readings_came_out_as_it_stands_in_the_table(open_page):

@@ -37,17 +37,17 @@ from traitlets.config import Config
 from neorl.files import cache_folder
 
 SMALL = {"runs": 2, "steps": 1_000, "seed": 0}
-ALSO_SMALL = {"alternatives": {"steps": 3_000}, "assumptions": {"points": 4},
-              "calibration": {"nearest": 1, "sample": 1, "steps": 2_000}, "chapter_3": {"steps": 3_000},
+ALSO_SMALL = {"alternatives": {"steps": 3_000}, "calibration": {"sample": 1, "steps": 2_000},
+              "chapter_3": {"steps": 3_000},
               "other_spaces": {"decisions": 200}, "your_research": {"steps": 2_000}}
 LEAST = {"runs": 1, "n": 1, "resolution": 1, "resolutions": [1], "layers": [1], "counts": [1], "stays": [1],
          "n_creeps": 1, "place_gain": 0.0, "recursion": 0.0, "learning_rate": 0.001, "exploration": 0.0, "memory": 1,
-         "bonus": 0.0, "begin": 0.1, "traffic": 0, "nearest": 0, "sample": 0}
+         "bonus": 0.0, "begin": 0.1, "traffic": 0, "sample": 0}
 # Other values of each page's parameters, which change what it shows. A line of papermill on each page has more.
 OTHERS = {
     "agent_in_one_file": {"n": 4, "n_creeps": 8}, "alternatives": {"n_creeps": 3},
-    "assumptions": {"points": 8, "steps": 2_000}, "beyond_agents": {"resolutions": [3, 7, 12], "n_creeps": 5},
-    "calibration": {"nearest": 10, "sample": 3}, "chapter_1": {"n_creeps": 20},
+    "assumptions": {"steps": 2_000}, "beyond_agents": {"resolutions": [3, 7, 12], "n_creeps": 5},
+    "calibration": {"sample": 3}, "chapter_1": {"n_creeps": 20},
     "chapter_2": {"learning_rate": 0.01, "exploration": 1.0}, "chapter_3": {"memory": 8, "bonus": 10.0},
     "chapter_4": {"resolutions": [2, 4, 6, 8], "stays": [5, 1_000]}, "chapter_5": {"counts": [2, 6], "begin": 0.9},
     "other_spaces": {"traffic": 20, "decisions": 333}, "own_world": {"resolution": 30},
@@ -60,7 +60,7 @@ WAYS = "defaults", "twice", "below", "least", "others", "papermill", "suggested"
 MEASURED = {  # the cells that show measured times
     "agent_in_one_file": {"comparison"}, "alternatives": {"costs-table"}, "beyond_agents": {"e65b2d27"},
     "chapter_4": {"cell-45", "cell-46", "pace"}, "own_world": {"cell-13"},
-    "paper_b": {"state-sizes", "cell-35", "cell-18"},
+    "chapter_5": {"cell-35", "claims-of-all"},
     "performance": {"cell-06", "cell-08", "cell-09", "cell-13", "cell-18", "minutes", "cell-20"}}
 OK, BAD = "ok", (None, {}, float("nan"))
 RESET = "get_ipython().reset(new_session=True)\n__spec__ = None"  # processes that are spawned look up the latter

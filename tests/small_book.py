@@ -27,8 +27,7 @@ result = neorl.simulate(neorl.place_cells([3]), neorl.WaterWorld(), steps=10_000
 lines = "".join(f"<path d='M{{k}} 0V{{abs(paid):.0f}}'/>" for k, paid in enumerate(result.rewards.ravel()))
 print(f"{{result.totals.sum():.6f}}")"""
 DRAW = """SVG(f"<svg xmlns='http://www.w3.org/2000/svg' width='75pt' height='30pt'>{lines * 20}</svg>")"""
-FIND_SHARES = """report.save('assumptions', shares={'A2': {'reproduced': 1, 'undecided': 0, 'contradicted': 3,
-                                                  'readings': 4}})"""
+FIND_SHARES = "report.save('assumptions', shares={'A2': {'agrees': 1, 'measured': 4}})"
 CONCLUDE = """from companion.shared import report
 print(sorted(report.load()["shares"].items()))
 report.save("chapter_5")"""
@@ -51,7 +50,7 @@ def make_tree(tree):
         shutil.copytree(ROOT / "notebooks" / "companion" / room, tree / "notebooks" / "companion" / room)
     shutil.copy(ROOT / "notebooks" / "companion" / "__init__.py", tree / "notebooks" / "companion")
     shutil.copy(ROOT / "Makefile", tree)
-    for path in [*(ROOT / "book").glob("*.py"), ROOT / "book" / "rules.toml"]:
+    for path in [*(ROOT / "book").glob("*.py"), *(ROOT / "book").glob("*.toml")]:
         shutil.copy(path, tree / "book")  # links would lead the build to the real tree
     (tree / "neorl").mkdir()  # pages depend on the sources here, but import the real package
     compiled = cache_folder().resolve() / "compiled"
@@ -62,7 +61,7 @@ def make_tree(tree):
                           "book/_toc.yml": TOC, "book/index.md": INDEX, "book/running.md": "# Running it\n",
                           "book/glossary.md": "# Glossary\n\n```{glossary}\nmap\n  Cells.\n```\n"}.items():
         (tree / name).write_text(content)
-    write_notebook(tree, "assumptions", SIMULATE.format(seed=0), DRAW, FIND_SHARES, points=4)
+    write_notebook(tree, "assumptions", SIMULATE.format(seed=0), DRAW, FIND_SHARES)
     write_notebook(tree, "paper_a", SIMULATE.format(seed=1), DRAW, "report.save('paper_a')")
     write_notebook(tree, "chapter_5", CONCLUDE)
     return tree

@@ -1,17 +1,14 @@
 """What the page on paper A needs beside its experiment: squares of the board, tables and figures.
 
-1. The results under one reading are {key: `Result`}, with the keys ("single", N), ("layer", N), "layers" (all layers in
-   one agent), "control" and ("brownian", 8) (Brownian motion, as long as the agents' runs and as long as the paper's).
+1. Results of the first experiment are `single`, {name: `Result`}, of agents with one map and of "Brownian motion";
+   those of the second are `several`, of agents with each layer and, last, of the agent with "all maps".
 2. The layers are those of the paper's second experiment unless the page has been given others. The thesis's numbers,
    and the names of its figures, go only with its own maps and 8 creeps.
 """
 
 import numpy as np
 
-from companion.shared import pins, side_by_side
 from companion.shared.parameters import FINEST
-from companion.shared.priors import BEYOND
-from companion.shared.report import CALIBRATED, LETTER
 from companion.shared.style import FILL, mark
 from companion.shared.wording import table
 from companion.shared.thesis_figures import mark_levels
@@ -50,44 +47,29 @@ def squares_entered(agent, world, steps, runs, seed=0):
     return np.array(found)
 
 
-def names_of(results):
-    """The agents of the second experiment: {key: name}. results: of one reading."""
-    layers = resolutions_of(results, "layer")
-    return {**{("layer", n): f"N{n}" for n in layers}, "layers": all_of(layers)}
-
-
 def rates(results, share):
-    """Mean reward per second of the second experiment's agents in a share of the run, as a Markdown table."""
-    names = names_of(next(iter(results.values())))
-    return table(["Reading", *names.values()], [
-        [reading, *(estimate(np.mean, each[key].rate(*share)) for key in names)] for reading, each in results.items()])
+    """Mean reward per second of the second experiment's agents in a share of the run, as a Markdown table.
+
+    results: {reading: several}.
+    """
+    names = next(iter(results.values()))
+    return table(["Reading", *names], [
+        [reading, *(estimate(np.mean, result.rate(*share)) for result in several.values())]
+        for reading, several in results.items()])
 
 
-def choices(readings):
-    """What readings choose for agents of place cells, as a Markdown table."""
-    listed = side_by_side.choices(readings, [field for field, choice in BEYOND.items() if "A" in choice.papers])
-    broken = ([pin.choice for pin in pins.broken(reading)] for reading in readings.values())
-    agreements = (f"breaks: {', '.join(dict.fromkeys(each))}" if each else "within the text" for each in broken)
-    return f"{listed}\n| *all in all* | | {' | '.join(agreements)} |"
+def explorer_conditions(single, several):
+    """The conditions that the page's Explorer offers: {name: `Result`}."""
+    *alone, together = several.items()
+    seven = _as_in(7, together[1], _layers(several) == LAYERS)
+    offered = {f"{seven}: {all_of(alone)} maps": together[1]}
+    offered |= {f"{seven}: {name} alone": result for name, result in alone}
+    of_paper = {*(f"N{n}" for n in SINGLE), "Brownian motion"}
+    return offered | {f"{_as_in(6, result, name in of_paper)}: {name}": result for name, result in single.items()}
 
 
-def explorer_conditions(results):
-    """The conditions that the page's Explorer offers: {name: `Result`}. results: {reading: {key: `Result`}}."""
-    offered = {}
-    for reading, suffix in ((CALIBRATED, ""), (LETTER, ", to the letter")):
-        found, layers = results[reading], resolutions_of(results[reading], "layer")
-        seven = _as_in(7, found["layers"], set(layers) == set(LAYERS))
-        offered[f"{seven}: {all_of(layers)} maps{suffix}"] = found["layers"]
-        offered |= {f"{seven}: N{n} alone{suffix}": found["layer", n] for n in layers}
-        offered |= {f"{_as_in(6, found['single', n], n in SINGLE)}: N{n}{suffix}": found["single", n]
-                    for n in resolutions_of(found, "single")}
-    control = results[CALIBRATED]["control"]
-    return offered | {f"{_as_in(6, control)}: Brownian motion": control}
-
-
-def resolutions_of(results, group):
-    """The resolutions of the agents of a group, "single" or "layer": a list."""
-    return [key[1] for key in results if key[0] == group]
+def _layers(several):
+    return several["all maps"].agent.nodes[0].resolutions
 
 
 def _as_in(figure, result, of_paper=True):
@@ -96,20 +78,19 @@ def _as_in(figure, result, of_paper=True):
     return f"{paper}, figure {figure}"
 
 
-def draw_together(results):
-    """Draw reward per second of each layer alone, of all together, and summed. results: of one reading.
+def draw_together(several):
+    """Draw reward per second of each layer alone, of all together, and summed.
 
     With the paper's layers and creeps, a dashed line marks the thesis's level, a multiple of what N7 finally earns.
     """
-    layers = resolutions_of(results, "layer")
-    alone, together = {f"N{n}": results["layer", n] for n in layers}, results["layers"]
-    total = {2: "sum of both", 3: "sum of the three"}.get(len(layers), "sum of all")
-    sums = [*((name, [result]) for name, result in alone.items()), (all_of(layers), [together]),
-            (total, [*alone.values()])]
-    axes = draw_sums(sums, [*looks(len(layers) + 1), (INK, "-")])
-    if set(layers) == set(LAYERS) and together.world.n_creeps == N_CREEPS:
+    *alone, (_, together) = several.items()
+    total = {2: "sum of both", 3: "sum of the three"}.get(len(alone), "sum of all")
+    sums = [*((name, [result]) for name, result in alone), (all_of(alone), [together]),
+            (total, [result for _, result in alone])]
+    axes = draw_sums(sums, [*looks(len(alone) + 1), (INK, "-")])
+    if _layers(several) == LAYERS and together.world.n_creeps == N_CREEPS:
         factor = STATEMENTS["A7"].bounds.number
-        mark_levels(axes, {f"thesis: {factor} × N7": factor * results["layer", 7].rate(*FINAL).mean()})
+        mark_levels(axes, {f"thesis: {factor} × N7": factor * several["N7"].rate(*FINAL).mean()})
 
 
 def draw_elements(axes, nres_map, places, valences, values):

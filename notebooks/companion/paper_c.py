@@ -1,19 +1,17 @@
-"""What the page on paper C needs beside its experiment: its judgement, drawings, and where desires land.
+"""What the page on paper C needs beside its experiment: drawings, and where desires land.
 
-The results under one reading are {name: `Result`}, of networks "A" to "D" and of "Brownian" motion on the same board.
+Results are {name: `Result`}, of networks "A" to "D" and of "Brownian" motion on the same board.
 """
 
 import numpy as np
 from matplotlib import pyplot as plt
 
-from companion.shared import judging
 from companion.shared.wording import table
 from companion.shared.thesis_figures import mark_levels
 from neorl.drawing.boards import MARGIN, desire_colour
 from neorl.drawing.curves import draw_proficiency
 from neorl.drawing.network_figures import HEAD, LARGEST, draw_into, laid_out, write
 from neorl.drawing.style import width_of_figures
-from companion.thesis.reading import GROUPS
 from companion.thesis.statements import STATEMENTS
 from companion.thesis.verdict import FINAL
 from neorl.experiments.run import Run
@@ -23,12 +21,6 @@ LOOKS = 500  # samples of each run, in its second half
 WELL_INSIDE = 0.2  # board widths from the middle
 FAR = 0.1  # board widths from the agent
 TRIED, PATIENCE, EVERY = 10, 5_000, 10  # runs, the steps of each, and the steps from look to look
-
-
-def judge(results, reading):
-    """The claims on networks under a reading, a list: none unless its networks were run among the paper's creeps."""
-    ran = {key: results["Brownian" if key[0] == "brownian" else key[1]] for key in GROUPS["networks"]}
-    return judging.of_papers(ran, reading, "networks")
 
 
 def draw_networks(agents):

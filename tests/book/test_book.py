@@ -22,7 +22,7 @@ MODULES = [f"neorl.{name}" for name in (
     "agents.agent", "agents.individual", "agents.learner", "agents.rules", "core.choices", "core.kernel", "core.maps",
     "core.modality", "core.scene", "experiments.condition", "experiments.result", "experiments.run",
     "experiments.simulation", "worlds", "worlds.world", "worlds.arena", "worlds.arm")] + [
-        "companion.other_spaces.trials", "companion.study.multiverse"]
+        "companion.other_spaces.trials", "companion.study.sensitivity"]
 
 
 def make_book(folder, url="", modules=("companion.shared.grid",)):

@@ -85,11 +85,11 @@ counter"""
 @pytest.mark.filterwarnings("ignore")
 def test_what_a_notebook_has_found_is_beside_its_page_and_in_the_table_of_all_claims(notebook, monkeypatch):
     change_last_cell(notebook, "from companion.shared import report\nreport.save('page', shares={'A2': "
-                               "{'reproduced': 1, 'undecided': 1, 'contradicted': 2, 'readings': 4}})")
+                               "{'agrees': 1, 'measured': 4}})")
     compute.compute(notebook, {"runs": 3})
     monkeypatch.setattr(record, "RECORD", notebook.parent / "record.json")  # there is none
     written = tables.of_claims([compute.CHAPTERS / "page.claims.json"], compute.CHAPTERS)["claims-table.md"]
-    assert "| 1 of 4 | 1 of 4 |" in written
+    assert "1 of 4 readings" in written
     assert written.count("not computed in this build</span></summary>") == len(STATEMENTS)
     change_last_cell(notebook, "pass")
     compute.compute(notebook, {"runs": 3})

@@ -4,12 +4,16 @@ import re
 import tomllib
 from dataclasses import replace
 
+import answer
+import curves
 import ledger
 import pytest
 import readme
 import rules
 from companion.shared import report
 from companion.shared.priors import WITHIN
+from companion.study import sensitivity
+from companion.study.calibration_targets import CLAIMS as FITTED
 
 from companion.thesis.reading import TO_THE_LETTER, Reading
 from companion.thesis.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS, Bounds
@@ -18,13 +22,13 @@ FOUND = {"here": [0.1, 0.09, 0.11], "runs": 100, "verdict": "reproduced",
          "numbers": {"Lead of B over A": [[0.1, 0.09, 0.11], "more than 0", "✓", "asked"]}}
 RECORD = {"commit": "abc1234", "date": "2026-12-01",
           "claims": {"C2": FOUND, "A6": FOUND | {"here": [0.19, None, None], "verdict": "undecided"},
+                     "B3": FOUND | {"here": [0.55, 0.5, 0.6], "verdict": "contradicted", "numbers": {
+                         "place cells": [[0.7, 0.6, 0.8], "from 0.23 to 0.36 (within a factor)", "✗", "asked"]}},
                      "A8": FOUND, "B1": FOUND | {"verdict": "contradicted"}, "T3": FOUND, "T4": FOUND,
                      "B5": FOUND | {"verdict": "refuted by proof"}},
           "letter": {"C2": FOUND | {"here": [-0.3, -0.31, -0.29], "verdict": "partly", "numbers": {
               "Lead of B over A": [[-0.3, -0.31, -0.29], "more than 0", "✗", "asked"]}}, "A2": FOUND},
-          "shares": {"C2": {"reproduced": 64, "undecided": 26, "contradicted": 128, "readings": 256, "agrees": 2,
-                            "measured": 40},
-                     "A6": {"reproduced": 1, "undecided": 0, "contradicted": 3, "readings": 4}}}
+          "shares": {"C2": {"agrees": 2, "measured": 40}, "B3": {"agrees": 0, "measured": 40}}}
 NOTHING = {"claims": {}, "letter": {}, "shares": {}}
 
 
@@ -35,17 +39,19 @@ def claim(name, record=RECORD):
     return [re.sub(r"</?(?!fig|rule)[^>]*>", " ", part).replace("\u00a0", " ") for part in found]
 
 
-def test_a_claim_is_a_line_that_opens_to_what_its_verdict_rests_on():
+def test_a_claim_is_a_line_with_the_number_that_decides_and_opens_to_what_its_verdict_rests_on():
     line, fold = claim("C2")
-    assert line.split() == ("One desire per colour (B) beats one for all (A) Thesis: &gt; 0 · Here: 0.10 [0.09, 0.11] "
-                            "● reproduced").split()
+    assert line.split() == ("One desire per colour (B) beats one for all (A) Lead of B over A in final reward per "
+                            "second; Lead of B over A: 0.10 [0.09, 0.11], needed: more than 0. Thesis: &gt; 0 ● "
+                            "reproduced").split()
     assert STATEMENTS["C2"].quotation in fold and STATEMENTS["C2"].place in fold
     assert "| Lead of B over A | more than 0 | ✓ 0.10 [0.09, 0.11] | ✗ −0.30 [−0.31, −0.29] |" in fold
     assert "{ref}`this figure <fig-proficiency-networks>`, judged by {ref}`this rule <rule-judge-networks>`" in fold
-    assert "| 5 % of 40 | 25 % of 256 | 10 % of 256 | 50 % of 256 |" in fold
+    assert "B − A, final: 16 of 48 readings agree" in fold
     line, fold = claim("A6")
-    assert line.split()[-8:] == "Here: 0.19 ? undecided more runs would tell".split()
-    assert "|  | 1 of 4 | 0 of 4 | 3 of 4 |" in fold
+    assert line.split()[-9:] == "0.19. Thesis: &gt; 0 ? undecided more runs would tell".split()[-9:]
+    line, _ = claim("B3")
+    assert "per second of both modalities; place cells: 0.70 [0.60, 0.80], needed: from 0.23 to 0.36. Thes" in line
     line, fold = claim("H1")
     assert line.split("◇")[1].split() == "not computed in this build".split() and "{ref}" not in fold
 
@@ -56,12 +62,46 @@ def test_the_page_has_every_claim_once_and_those_not_about_agents_under_headings
     assert sorted(names) == sorted(STATEMENTS) and names[:len(AGENTS)] == sorted(AGENTS, key=lambda name: name[0])
     assert names[-len(DEMONSTRATIONS):] == [*DEMONSTRATIONS]
     assert {name[0] for name in AGENTS} == set(ledger.CHAPTERS)
-    sections = {part.split("\n")[0]: re.findall(r"<b>(\w+)</b>", part) for part in page.split("\n## ")[1:]}
+    sections = {part.split("\n")[0]: re.findall(r"<b>(\w+)</b>", part) for part in page.split("\n### ")[1:]}
     assert (sections["Counted apart: decided by proof"], sections["Counted apart: decided by counting"]) == (
         ["B5"], ["T3", "T4"])
-    plain = re.sub("<[^>]+>", "", page)
-    assert f"\n{len(AGENTS)} claims about agents: ● 2 reproduced · ○ 1 contradicted · ? 1 undecided (more" in plain
-    assert f"\n{len(ledger.APART)} claims counted apart: ● 2 reproduced · ∎ 1 refuted by proof · ◇ 3 not comp" in plain
+
+
+def test_the_figure_has_a_row_for_each_claim_in_eight_words_with_its_share_and_two_verdicts():
+    blocks = [re.findall(r"<b>(\w+)</b>", block) for block in answer.figure(RECORD).split("<tbody>")[1:]]
+    assert [sorted(block) for block in blocks] == [sorted(FITTED), sorted(answer.NOT_FITTED), sorted(ledger.APART)]
+    assert blocks[0][:2] == ["C2", "B3"], "claims with most agreement come first"
+    assert {*answer.ANSWERS["short"]} == {*CLAIMS} and {*answer.ANSWERS["why"]} <= {*CLAIMS}
+    assert all(len(text.split()) <= 8 for text in answer.ANSWERS["short"].values())
+    row = re.search(r"<tr><th[^>]*><a[^>]*><b>C2</b>.*?</tr>", answer.figure(RECORD))[0]
+    assert 'style="width:5%"' in row and re.findall('aria-label="([^"]*)', row) == ["partly", "reproduced"]
+
+
+def test_what_fails_in_any_reading_has_a_reason_and_what_fails_in_two_is_named():
+    listed = answer.fails(RECORD)
+    assert re.findall(r">(\w+)</a>\*\*", listed) == ["B5"] and "it is 24/7" in listed
+    also = RECORD | {"letter": RECORD["letter"] | {"B3": RECORD["claims"]["B3"], "B1": RECORD["claims"]["B1"]}}
+    listed, both = answer.fails(also).split("\n\n")
+    assert re.findall(r">(\w+)</a>\*\*", listed) == ["B3", "B5"] and answer.NEVER in listed
+    assert re.findall(r">(\w+)</a>", both) == ["B1"]
+
+
+def test_the_choices_that_decide_have_their_sentences_both_values_and_the_claims_that_flip():
+    rows = answer.decides(sensitivity.shipped()).splitlines()[2:]
+    memory = next(row for row in rows if row.startswith("| **memory, cells**<br>“assigning credit"))
+    assert memory.split(" | ")[1] == "0" and ">A6</a>" in memory.split(" | ")[3] and len(rows) <= answer.DECIDING
+    assert "Most depends on *memory*" in answer.dependence(RECORD, sensitivity.shipped())
+    assert "5\u00a0% agree with" in answer.dependence(RECORD, sensitivity.shipped())
+    assert answer.decides(sensitivity.shipped()._replace(flips={})) == ""
+
+
+def test_a_panel_of_a_specification_curve_has_all_readings_and_what_agrees_apart():
+    shown = curves.panels(sensitivity.shipped(), "B3")
+    assert re.findall(r">([^<]*: \d+ of 48 readings agree)<", shown) == [
+        "Place cells, final: 4 of 48 readings agree", "Both, final: 9 of 48 readings agree"]
+    drawn = [path.count("M") for path in re.findall(r'class="(?:in|out)" d="([^"]*)"', shown)]
+    assert drawn == [44, 4, 39, 9] and curves.panels(sensitivity.shipped(), "T1") == ""
+    assert not re.search(r"nan|inf", shown) and shown.count(">calibrated<") == shown.count(">letter<") == 2
 
 
 def test_every_square_of_the_strips_leads_to_its_claim():
@@ -81,12 +121,10 @@ def test_one_headline_stands_on_all_pages_and_counts_what_was_used_to_choose_the
                                              readme.by_verdict(RECORD)))
     departing = sum(Reading().choices[name] != TO_THE_LETTER.choices[name] for name in WITHIN)
     assert headline == (
-        f"Of the thesis’s {len(AGENTS)} claims about agents, 2 are reproduced, 1 contradicted, 1 "
-        f"undecided and {len(AGENTS) - 4} not computed in this build (100 runs of each condition). 13 of the "
-        f"{len(AGENTS)} were used to choose the reading, in which {departing} of {len(WITHIN)} open choices depart "
-        f"from the letter: 1 of these 13 claims and 1 of the other {len(AGENTS) - 13} are reproduced. To the letter: 1 "
-        "reproduced. Counted apart: B5 refuted by proof; C5 not computed in this build; T3, T4 (by counting) "
-        "reproduced; T2, T5 (this book’s code) not computed in this build.")
+        "With every gap of the text filled by what it prints, or by the simplest value (“to the letter”), 1 of the "
+        f"thesis’s {len(AGENTS)} claims about agents are reproduced. With {departing} of the {len(WITHIN)} gaps filled "
+        "by other values, which fit best (“calibrated”), 2 are: 1 of the 13 claims that were used for the fit, and 1 "
+        f"of the other {len(AGENTS) - 13}.")
 
 
 @pytest.mark.parametrize("record", [NOTHING, NOTHING | {"claims": {"A2": FOUND | {"verdict": "no verdict"}}}])

@@ -57,7 +57,7 @@ some = st.dictionaries(st.sampled_from("abc"), numbers)
 
 @given(st.sampled_from(AGENTS), numbers, some, some, numbers)
 def test_a_fold_explains_the_verdict_on_any_numbers(name, here, asked, part, shown):
-    found = report._kept([judged(name, here, 100, asked, {"shown": shown}, part)])
+    found = report.kept([judged(name, here, 100, asked, {"shown": shown}, part)])
     assert unexplained({"claims": found, "letter": {}}) == {}
 
 
@@ -103,8 +103,18 @@ def test_a_record_is_stable_and_its_sample_notices_other_bits(made, monkeypatch)
     assert made() == text and found["commit"] == "abc1234" and found["claims"] == FINDINGS["claims"]
     assert record.moved(found) == [] and set(found["sample"]) == {report.LETTER, report.CALIBRATED}
     monkeypatch.setattr(record, "SEED", 1)
-    assert record.moved(found) == [f"{reading}, {key}" for reading in (report.LETTER, report.CALIBRATED)
+    assert record.moved(found) == [f"{reading}, {key}" for reading in (report.CALIBRATED, report.LETTER)
                                    for key in ("single 10", "layers")]
+
+
+def test_a_build_to_the_letter_replaces_its_claims_alone(made, tmp_path):
+    calibrated = json.loads(made())
+    other = CLAIM | {"verdict": "partly"}
+    findings = {"claims": {}, "letter": dict.fromkeys(record.READ, other), "shares": {}}
+    (tmp_path / "page.json").write_text(json.dumps(findings | {"source": source_digest()}))
+    assert json.loads(made()) == calibrated | {"letter": findings["letter"]}
+    (tmp_path / "page.json").write_text(json.dumps(FINDINGS | {"source": source_digest()}))
+    assert json.loads(made()) == calibrated | {"letter": findings["letter"]}
 
 
 def test_a_work_tree_with_changes_is_refused(made):

@@ -207,11 +207,11 @@ def test_a_change_on_the_way_keeps_what_was_learned(open_page, site):
 
 def test_the_trail_is_drawn_unless_it_is_hidden(open_page, site):
     seconds = Run(BOTH, TANK, SIZE["seed"])
-    seconds.advance(2_850)
+    seconds.advance(5_850)
     assert np.ptp(seconds.record(150).positions, axis=0).max() > 100  # so there is a trail of the last three
     folder, name = site("both")
-    page = open_page(folder, f"{name}#explorer_minute-1")
-    page.wait_for_function("document.querySelector('.neorl-explorer')?.dataset.step === '3000'")
+    page = open_page(folder, f"{name}#explorer_minute-2")
+    page.wait_for_function("document.querySelector('.neorl-explorer')?.dataset.step === '6000'")
     wait(page, "paused")
     with_trail = picture(page)
     page.locator('[name="trail"]').uncheck()

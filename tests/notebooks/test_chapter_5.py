@@ -1,74 +1,168 @@
-"""The page of chapter 5: its experiment, and the verdicts on the claims behind each conclusion."""
+"""The page of chapter 5: its experiments, the claims that it judges, and whether the conclusions stand."""
 
-import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from matplotlib import pyplot as plt
-from page_cells import planned
+from page_cells import planned, source
 
-from companion import chapter_5
-from companion.shared.report import CALIBRATED, LETTER
-from companion.thesis.reading import PRIMES, Reading, conditions
-from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
-from companion.thesis.verdict import VERDICTS
+import neorl
+from companion.chapter_5 import conclusions, figures, trials
+from companion.shared import report
+from companion.shared.report import CLAIMS_OF
+from companion.thesis.reading import PRIMES, READINGS, Reading, conditions
+from companion.thesis.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS
+from neorl import WaterWorld
 
 
-def experiment(**given):
+def experiment(*cells, **given):
     """What the page's cells define down to its experiment, with conditions in place of results: {name: value}."""
-    return planned("chapter_5", "experiment", "ran", runs=3, steps=900, seed=2, **given)
+    return planned("chapter_5", "experiment", *cells, until=["moved = "],
+                   **{"runs": 12, "steps": 900, "seed": 2} | given)
 
 
-def test_agents_have_the_coarsest_maps_of_paper_b_up_to_all():
-    results = experiment()["results"]
-    paper_b = conditions(Reading(), 900, 3, 2, ["modal"])
+@pytest.mark.parametrize("reading", READINGS)
+def test_agents_have_the_coarsest_maps_of_paper_b_up_to_all(reading):
+    names = experiment(reading=reading)
+    paper_b = conditions(READINGS[reading], 900, 12, 2, ["modal"])
     for name, key in (("place cells", ("place", "all")), ("object-vector cells", ("objects", "all")), ("both", "both")):
-        assert results[name, 6] == paper_b[key]
-        for n in (1, 2, 4):
-            assert {node.resolutions for node in results[name, n].agent.nodes} == {PRIMES[:n]}
-            assert replace(results[name, n], agent=paper_b[key].agent) == paper_b[key]
+        *fewer, full = names["growing"][name]
+        assert full == paper_b[key]
+        for n, each in zip((1, 2, 4), fewer, strict=True):
+            assert {node.resolutions for node in each.agent.nodes} == {PRIMES[:n]}
+            assert replace(each, agent=paper_b[key].agent) == paper_b[key]
 
 
 @pytest.mark.parametrize("begin, step", [(0.5, 450), (0.25, 225)])
 def test_indifferent_agents_have_the_same_desires_but_no_valence_until_these_begin(begin, step):
-    page = experiment(begin=begin, counts=[2])
-    results, throughout, later = (page[name] for name in ("results", "throughout", "later"))
-    assert (page["numbers"], page["begun"], results["later"]) == ([2], begin, later)
-    assert throughout == conditions(Reading(), 900, 3, 2, ["modal"])["both"]
+    names = experiment("ran", begin=begin, counts=[2])
+    throughout, later = names["throughout"], names["later"]
+    assert (names["numbers"], names["begun"]) == ([2], begin)
+    assert throughout == conditions(Reading(), 900, 12, 2, ["modal"])["both"]
     assert later.changes == ((step, throughout.agent),)
     assert [desire.source for desire in later.agent.desires] == [desire.source for desire in throughout.agent.desires]
     assert not any(desire.valence for desire in later.agent.desires) and later.agent.nodes == throughout.agent.nodes
 
 
+def test_agents_explore_after_the_change_and_not_before():
+    names = experiment("papers")
+    ((turn, plain),), ((same_turn, exploring),) = names["ran"]["revalued"].changes, names["exploring"].changes
+    assert turn == same_turn == 450 and exploring.policy == neorl.Policy(0.05, "random") != plain.policy
+    assert names["exploring"].agent == names["ran"]["revalued"].agent
+    assert {key: each.runs for key, each in names["ran"].items() if key[-1] == "all" or key in ("both", "wanting")} == {
+        ("place", "all"): 12, ("objects", "all"): 12, "both": 12, "wanting": 10}
+
+
+def empty_results(conditions):
+    return [neorl.Result(each, np.zeros((each.runs, bins := -(-each.steps // 10)), np.float32),
+                         np.zeros((each.runs, bins, 2), np.int16)) for each in conditions]
+
+
+@pytest.fixture(scope="module", params=READINGS)
+def computed(request):
+    """The names of the page after its experiments, in which nothing is earned."""
+    return planned("chapter_5", "experiment", "papers", "ran", reading=request.param, runs=2, steps=1_000,
+                   counts=[1], sweep=empty_results)
+
+
+def other_agent(made):
+    """The same result, or measurement, of another agent."""
+    condition = replace(made.condition, agent=neorl.brownian())
+    return replace(made, condition=condition) if isinstance(made, neorl.Result) else made._replace(condition=condition)
+
+
+@pytest.mark.parametrize("change, without", [
+    (None, ""), ("moved", "T1"), ("costs", "T2"), ("revalued", "T1 T6"), (("layer", 7), "T6")])
+def test_a_claim_is_judged_only_if_what_was_run_for_it_is_the_papers(change, without, computed, cache_folder):
+    names = dict(computed)
+    if change in names["ran"]:
+        names["ran"] = names["ran"] | {change: other_agent(names["ran"][change])}
+    elif change:
+        names[change] = other_agent(names[change])
+    exec(source("chapter_5", "judging"), names)
+    found = [name for name in CLAIMS_OF["chapter_5"] if name not in without.split()]
+    assert [claim.name for claim in names["judged"]] == [*names["record"]["claims"]] == found
+    assert bool(report.load()[report.PART_OF[names["name_of_reading"]]]) == (change is None)
+
+
 def test_every_claim_belongs_to_one_group():
-    assert sorted(name for names in chapter_5.GROUPS.values() for name in names) == sorted(CLAIMS)
-    assert chapter_5.GROUPS["Counted apart"] == tuple(name for name in CLAIMS if name not in AGENTS)
+    assert sorted(name for names in conclusions.GROUPS.values() for name in names) == sorted(STATEMENTS)
+    assert conclusions.GROUPS["Counted apart"] == tuple(name for name in CLAIMS if name not in AGENTS)
+    for names, group in zip(conclusions.CARRYING.values(), conclusions.GROUPS.values()):
+        assert {*names} <= {*group}
 
 
-def test_each_reading_has_its_verdicts_on_each_conclusion():
-    found = {part: {name: {"verdict": verdict} for name, verdict in verdicts.items()}
-             for part, verdicts in (("claims", {"C1": "partly", "T1": "reproduced", "C3": "undecided"}),
-                                    ("letter", {"C1": "not testable", "A2": "no verdict"}))}
-    head, _, *rows = chapter_5.verdicts(found).splitlines()
-    cells = {tuple(cell.strip() for cell in row.split("|")[1:3]): [cell.strip() for cell in row.split("|")[3:-1]]
-             for row in rows}
-    columns = [re.sub("<.*?>|\u00a0", "", cell).strip(" ●◐○◇?∎∃") for cell in head.split("|")[3:-1]]
-    assert columns == [each for each in (*VERDICTS, "not judged") if each not in (VERDICTS[2], *VERDICTS[5:7])]
-    assert cells["Learning apart from behaviour", CALIBRATED] == ["T1", "C1", "C3", "", "", "T7 C2 C4"]
-    assert cells["Learning apart from behaviour", LETTER] == ["", "", "", "C1", "", "T1 T7 C2 C3 C4"]
-    assert cells["Superposition", LETTER][4] == "A2" and len(rows) == 8
+def record_of(verdicts, letter=()):
+    found = [{name: {"verdict": verdict, "here": [2.0, 1.0, 3.0], "runs": 10, "numbers": {}}
+              for name, verdict in dict(of).items()} for of in (verdicts, letter)]
+    return {"claims": found[0], "letter": found[1], "shares": {}}
+
+
+@pytest.mark.parametrize("verdicts, standing", [
+    (["reproduced"] * 4, "stands"), (["reproduced", "contradicted"], "stands in part"), (["partly"], "stands in part"),
+    (["contradicted"] * 4, "does not stand"), (["contradicted"], "is open"), (["not testable"] * 4, "is open"),
+    (["no verdict"], "is not judged"), ([], "is not judged")])
+def test_a_conclusion_stands_as_far_as_the_claims_that_carry_it(verdicts, standing):
+    names = conclusions.CARRYING["Superposition"]
+    record = record_of(zip(names, verdicts))
+    assert conclusions.standing(record, names) == standing
+    box = conclusions.answer(record, "letter")
+    judged = verdicts and verdicts != ["no verdict"]
+    assert (f"**To the letter: superposition {standing}; " in box) == bool(judged or not verdicts)
+    assert ("Quick look" in box) == (verdicts == ["no verdict"])
+    assert ("*Superposition.* " in box) == bool(judged)
+
+
+def test_a_record_of_one_reading_has_no_claims_of_another():
+    record = record_of({"B1": "partly", "T3": "reproduced", "T1": "partly"}, {"B3": "partly", "T2": "partly"})
+    assert [*conclusions.of_reading(record, "calibrated", [])["claims"]] == ["T3", "B1"]
+    assert [*conclusions.of_reading(record, "letter", [])["claims"]] == ["T3", "B3"]
 
 
 def test_what_no_page_has_judged_is_said_in_one_sentence():
-    nothing = {"claims": {}, "letter": {}, "shares": {}}
-    assert chapter_5.remedy(nothing).startswith("**No claim has been judged yet: `make book` computes")
-    assert chapter_5.verdicts(nothing) == chapter_5.extract(nothing, CLAIMS) == ""
-    claim = {"here": [2.0, 1.0, 3.0], "runs": 10, "verdict": "partly", "numbers": {}}
-    some = nothing | {"claims": {name: claim for name in STATEMENTS if name not in ("A2", "T6")}}
-    assert "A2, T6 have not been judged yet" in chapter_5.remedy(some)
-    assert "not computed" not in chapter_5.extract(some, CLAIMS)
-    assert chapter_5.remedy(some | {"claims": dict.fromkeys(STATEMENTS, claim)}) == ""
-    for record, rows in ((some, ["A3  partly"]), (nothing, [])):
-        chapter_5.draw_standing(record, ["A2", "A3"])
+    nothing = record_of({})
+    assert conclusions.remedy(nothing).startswith("**No claim has been judged yet: `make book` computes")
+    assert conclusions.tables(nothing) == conclusions.failed(nothing) == ""
+    some = record_of({name: "contradicted" for name in STATEMENTS if name not in ("A2", "T6")})
+    assert "A2, T6 have not been judged yet" in conclusions.remedy(some)
+    shown = conclusions.tables(some)
+    assert "not computed" not in shown and shown.count("no verdict. Numbers") == 1
+    assert shown.count(">B1</a>") == 1
+    assert conclusions.failed(some).count("\n- ") == len(CLAIMS) - 3
+    assert all(f">{name}</a>" not in conclusions.failed(some) for name in DEMONSTRATIONS)
+    assert conclusions.remedy(record_of(dict.fromkeys(STATEMENTS, "partly"))) == ""
+    for record, rows in ((some, ["A3  contradicted"]), (nothing, [])):
+        figures.draw_standing(record, ["A2", "A3"])
         assert [label.get_text() for label in plt.gca().get_yticklabels() if plt.gca().axison] == rows
     plt.close("all")
+
+
+def made_up(rate, runs=2, red=0.0, bins=3_000):
+    """A result in which every run takes about `rate` green and `red` red creeps per second."""
+    luck = np.random.default_rng(0).random((runs, bins, 2))
+    hits = (luck < 0.2 * np.array([rate, red])).astype(np.int16)
+    rewards = (hits[..., 0] - hits[..., 1]).astype(np.float32)
+    return neorl.Result(neorl.Condition(neorl.place_cells([2]), WaterWorld(), 10 * bins, runs), rewards, hits)
+
+
+def test_red_creeps_a_minute_add_up_to_those_taken():
+    result = made_up(0.3, red=0.5)
+    minutes, curves = figures.red_a_minute({"a": result})
+    assert curves["a"].shape == (2, 100) and minutes[[0, -1]] == pytest.approx([0.05, 9.95])
+    np.testing.assert_allclose(curves["a"].mean(axis=1) * 10, result.hits[..., 1].sum(axis=1))
+
+
+def test_agents_roam_as_far_as_their_paths_spread():
+    tank = neorl.WaterWorld()
+    changed = neorl.simulate(neorl.brownian(), tank, steps=400, runs=2, seed=1,
+                             changes=[(200, neorl.place_cells([3]))], progress=False)
+    before, end = trials.roaming(changed, seconds=1)
+    run = neorl.Run(changed.agent, tank, seed=1, run=1)
+    run.advance(200 - tank.fps)
+    path = []
+    for _ in range(tank.fps):
+        run.advance(1)
+        path.append(run.world_state.scene.position / tank.width)
+    assert before.shape == end.shape == (2,) and end.all()
+    assert before[1] == pytest.approx(np.sqrt(np.mean(np.sum((path - np.mean(path, axis=0)) ** 2, axis=1))))

@@ -7,9 +7,9 @@ import pytest
 from page_cells import planned, source
 
 from companion import paper_a
-from companion.shared.report import CALIBRATED, LETTER
+from companion.shared.judging import by_condition, papers
 from neorl import Condition, Result, WaterWorld, brownian, place_cells
-from companion.thesis.reading import LAYERS, SINGLE, TO_THE_LETTER, Reading, conditions, judge
+from companion.thesis.reading import LAYERS, READINGS, SINGLE, TO_THE_LETTER, Reading, conditions, judge
 
 WORLD = WaterWorld(n_creeps=8, win_reward=5.0, fps=Reading().paper_a_fps)
 
@@ -27,49 +27,48 @@ def made_up(agent, rate, runs=12, steps=150_000, world=WORLD):
     return Result(Condition(agent, world, steps, runs), hits[..., 0].astype(np.float32), hits)
 
 
-def results_of(layers=LAYERS, single=SINGLE, world=WORLD):
-    """Results under one reading, with the keys of the page."""
-    made = {("single", n): made_up(place_cells([n]), 0.2 + 0.001 * n, world=world) for n in single}
-    made |= {("layer", n): made_up(place_cells([n]), 0.1 + 0.01 * n, world=world) for n in layers}
-    chance = made_up(brownian(), 0.03, world=world)
-    return made | {"layers": made_up(place_cells(layers), 0.7, world=world), "control": chance, ("brownian", 8): chance}
+def results_of(layers=LAYERS, resolutions=SINGLE, world=WORLD):
+    """Results of both experiments, and of Brownian motion in as many steps as the paper's."""
+    single = {f"N{n}": made_up(place_cells([n]), 0.2 + 0.001 * n, world=world) for n in resolutions}
+    several = {f"N{n}": made_up(place_cells([n]), 0.1 + 0.01 * n, world=world) for n in layers}
+    control = {"Brownian motion": made_up(brownian(), 0.03, world=world)}
+    return single | control, several | {"all maps": made_up(place_cells(layers), 0.7, world=world)}, control
 
 
+@pytest.mark.parametrize("reading", READINGS)
 @pytest.mark.parametrize("runs, steps", [(30, 150_000), (3, 4_000), (12, 400_000)])
-def test_the_experiment_is_that_of_the_paper_under_each_reading(runs, steps):
-    results = page(runs=runs, steps=steps, seed=5)["results"]
-    assert list(results) == [LETTER, CALIBRATED]
-    for reading, found in zip((TO_THE_LETTER, Reading()), results.values()):
-        expected = conditions(reading, steps, runs, 5, groups=("layers",))
-        expected |= conditions(reading, steps, min(runs, 10), 5, groups=("single",)) | {
-            ("brownian", 8): expected["brownian", 8]}
-        assert found == expected | {"control": replace(expected["single", 10], agent=brownian())}
+def test_the_experiment_is_that_of_the_paper_under_a_reading(reading, runs, steps):
+    names = page(reading=reading, runs=runs, steps=steps, seed=5)
+    expected = conditions(READINGS[reading], steps, runs, 5, groups=("layers",))
+    expected |= conditions(READINGS[reading], steps, min(runs, 10), 5, groups=("single",)) | {
+        ("brownian", 8): expected["brownian", 8]}
+    assert by_condition(names["ran"], expected) == expected
+    assert names["single"]["Brownian motion"] == replace(expected["single", 10], agent=brownian())
 
 
 def test_the_experiment_follows_the_parameters():
-    found = page(layers="[5, 11]", resolutions=[20], n_creeps=3)["results"][LETTER]
-    assert set(found) == {("layer", 5), ("layer", 11), "layers", ("single", 20), "control", ("brownian", 8)}
-    assert found["layers"].agent == place_cells([5, 11], **TO_THE_LETTER.agents)
-    assert {each.world.n_creeps for each in found.values()} == {3}
+    names = page(reading="letter", layers="[5, 11]", resolutions=[20], n_creeps=3)
+    assert [*names["single"]] == ["N20", "Brownian motion"] and [*names["several"]] == ["N5", "N11", "all maps"]
+    assert names["several"]["all maps"].agent == place_cells([5, 11], **TO_THE_LETTER.agents)
+    assert {each.world.n_creeps for each in names["ran"]} == {3}
 
 
 def test_the_variations_are_those_of_the_second_experiment():
     names = page("variations", runs=20)
-    varied, variants = names["varied"], names["variants"]
-    assert set(varied) == set(variants) and len(variants) >= 8
-    for name, reading in variants.items():
+    assert set(names["varied"]) == set(names["variants"]) and len(names["variants"]) >= 8
+    for name, reading in names["variants"].items():
         expected = conditions(reading, 150_000, 10, groups=("layers",))
-        assert expected.items() <= varied[name].items()
+        assert {*names["varied"][name].values()} == {*expected.values()} - {expected["brownian", 8]}
 
 
 def judged(layers=LAYERS, resolutions=SINGLE, n_creeps=8):
     """The claims that the page judges of made-up results, and those results."""
-    results = results_of(layers, resolutions, replace(WORLD, n_creeps=n_creeps))
+    single, several, control = results_of(layers, resolutions, replace(WORLD, n_creeps=n_creeps))
+    squares = {name: np.full((12, 3), count) for count, name in enumerate(control | several, 20)}
     names = page(layers=layers, resolutions=resolutions, n_creeps=n_creeps)
-    squares = {name: np.full((12, 3), count) for count, name in enumerate(("chance", *layers, "all"), 20)}
-    names |= {"readings": {CALIBRATED: Reading()}, "results": {CALIBRATED: results}, "explored": {CALIBRATED: squares}}
+    names |= {"ran": [*single.values(), *several.values(), *control.values()], "explored": squares}
     exec(source("paper_a", "judging"), names)
-    return names["judged"][CALIBRATED], results
+    return names["judged"], names["ran"]
 
 
 OF_SINGLE = ["A1", "A2", "A3", "A4", "A5", "A11"]
@@ -77,8 +76,8 @@ ALL = [*(f"A{n}" for n in range(1, 10)), "A11", "T9"]
 
 
 def test_the_paper_s_own_conditions_are_judged_as_its_reading_is():
-    claims, results = judged()
-    assert claims[:-1] == [*judge(results).values()]
+    claims, ran = judged()
+    assert claims[:-1] == [*judge(by_condition(ran, papers(Reading(), "single", "layers"))).values()]
     assert [claim.name for claim in claims] == ALL
     assert claims[-1].here.value == pytest.approx(24 / 23)  # all over the best alone
 
@@ -94,15 +93,15 @@ def test_a_claim_is_judged_only_where_its_own_conditions_are_run(parameters, nam
     assert [claim.name for claim in judged(**parameters)[0]] == names
 
 
-def test_the_explorer_offers_both_readings_and_one_control():
-    calibrated, letter = results_of(), results_of()
-    offered = paper_a.explorer_conditions({LETTER: letter, CALIBRATED: calibrated})
+def test_the_explorer_offers_what_was_run_by_the_paper_s_figures():
+    single, several, control = results_of()
+    offered = paper_a.explorer_conditions(single, several)
     six, seven = "Paper A, figure 6", "Paper A, figure 7"
-    assert next(iter(offered)) == f"{seven}: all three maps" and len(offered) == 2 * (1 + len(LAYERS) + len(SINGLE)) + 1
-    assert offered[f"{seven}: all three maps"] is calibrated["layers"]
-    assert offered[f"{seven}: N23 alone"] is calibrated["layer", 23]
-    assert offered[f"{six}: N90, to the letter"] is letter["single", 90]
-    assert offered[f"{six}: Brownian motion"] is calibrated["control"]
+    assert next(iter(offered)) == f"{seven}: all three maps" and len(offered) == 1 + len(LAYERS) + len(SINGLE) + 1
+    assert offered[f"{seven}: all three maps"] is several["all maps"]
+    assert offered[f"{seven}: N23 alone"] is several["N23"]
+    assert offered[f"{six}: N90"] is single["N90"]
+    assert offered[f"{six}: Brownian motion"] is single["Brownian motion"]
 
 
 def test_squares_are_counted_once_ten_times_a_second():

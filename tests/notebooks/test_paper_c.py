@@ -7,12 +7,9 @@ import pytest
 from page_cells import planned, source
 
 from companion import paper_c
-from companion.shared.report import CALIBRATED, LETTER
 from neorl import Learning, Policy, Result, Run, WaterWorld, network_b
-from companion.thesis.reading import TO_THE_LETTER, Reading, conditions, networks
+from companion.thesis.reading import READINGS, Reading, conditions, networks
 from neorl.experiments.condition import Condition
-
-READINGS = {LETTER: TO_THE_LETTER, CALIBRATED: Reading()}
 
 
 def experiment(*cells, **parameters):
@@ -20,21 +17,20 @@ def experiment(*cells, **parameters):
     return planned("paper_c", "1e283f34", *cells, **parameters)
 
 
+@pytest.mark.parametrize("name", READINGS)
 @pytest.mark.parametrize("steps", [4_000, 300_000, 600_000])
-def test_the_page_runs_the_networks_of_each_reading(steps):
-    found = experiment(runs=3, steps=steps, seed=2)
-    for name, reading in READINGS.items():
-        expected = conditions(reading, steps, 3, 2, groups=["networks"])
-        assert found["results"][name] == {key[1] if key[0] == "network" else "Brownian": each
-                                          for key, each in expected.items()}
+def test_the_page_runs_the_networks_of_a_reading(name, steps):
+    page = experiment(reading=name, runs=3, steps=steps, seed=2)
+    expected = conditions(READINGS[name], steps, 3, 2, groups=["networks"])
+    assert page["results"] | page["control"] == {key[1] if key[0] == "network" else "Brownian": each
+                                                 for key, each in expected.items()}
 
 
 def test_weights_and_creeps_and_maps_are_those_of_the_parameters():
-    other = experiment(recursion=-0.5, n_creeps=5, resolutions=(2, 7))
-    for name, reading in READINGS.items():
-        agents = networks(replace(reading, recursion=-0.5, network_resolutions=(2, 7)))
-        assert {key: each.agent for key, each in other["results"][name].items() if key != "Brownian"} == agents
-        assert {each.world for each in other["results"][name].values()} == {WaterWorld(n_creeps=5)}
+    page = experiment(recursion=-0.5, n_creeps=5, resolutions=(2, 7))
+    agents = networks(Reading(recursion=-0.5, network_resolutions=(2, 7)))
+    assert {name: each.agent for name, each in page["results"].items()} == agents
+    assert {each.world for each in page["results"].values()} == {WaterWorld(n_creeps=5)}
 
 
 def without_reward(conditions):
@@ -47,25 +43,26 @@ def without_reward(conditions):
     ({}, True), ({"recursion": -0.5}, False), ({"n_creeps": 4}, False), ({"resolutions": (3, 7)}, False),
     ({"resolutions": (3, 7, 23)}, True), ({"network_a": network_b}, False)])
 def test_claims_are_judged_only_if_what_the_paper_ran_is_what_was_run(parameters, judged):
-    found = experiment("judging", runs=2, steps=2_000, sweep=without_reward, **parameters)["judged"]
-    assert {name: [claim.name for claim in claims] for name, claims in found.items()} == dict.fromkeys(
-        READINGS, ["C1", "C2", "C3", "C4"] if judged else [])
+    for name in READINGS:
+        claims = experiment("ran", "judging", reading=name, runs=2, steps=2_000, sweep=without_reward,
+                            **parameters)["judged"]
+        assert [claim.name for claim in claims] == (["C1", "C2", "C3", "C4"] if judged else [])
 
 
 def test_runs_as_long_as_the_paper_s_give_verdicts_and_shorter_ones_do_not():
     for steps in (300_000, 299_990):
-        found = experiment("judging", runs=2, steps=steps, sweep=without_reward)["judged"]
-        assert {claim.full_length for claims in found.values() for claim in claims} == {steps == 300_000}
+        claims = experiment("ran", "judging", runs=2, steps=steps, sweep=without_reward)["judged"]
+        assert {claim.full_length for claim in claims} == {steps == 300_000}
 
 
 def test_the_variations_are_those_of_what_was_run_whatever_the_parameters_are_now():
     names = experiment("ran", runs=3, steps=4_000, n_creeps=5, recursion=-0.5)
-    names |= {"n_creeps": 8, "steps": 9_000, "recursion": 2.0, "book": names["readings"][CALIBRATED]}
+    names |= {"n_creeps": 8, "steps": 9_000, "recursion": 2.0}
     exec(source("paper_c", "variations"), names)
     for name, variant in names["variants"].items():
-        assert {each.world.n_creeps for each in names["others"][name].values()} == {5}
-        assert names["others"][name]["D"].agent == networks(variant)["D"] and variant.recursion == -0.5
-        assert names["others"][name]["D"].steps == 4_000
+        assert {each.world.n_creeps for each in names["varied"][name].values()} == {5}
+        assert names["varied"][name]["D"].agent == networks(variant)["D"] and variant.recursion == -0.5
+        assert names["varied"][name]["D"].steps == 4_000
 
 
 def test_the_moment_is_the_first_seen_at_which_the_agent_is_well_inside_and_desires_something_far(monkeypatch):

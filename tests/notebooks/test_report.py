@@ -28,7 +28,7 @@ def layers(runs=20):
 
 def test_claims_are_kept_as_data_and_a_bound_that_does_not_exist_as_null(record, cache_folder):
     kept = json.loads((cache_folder / "claims" / "paper_c.json").read_text())
-    assert list(kept["claims"]) == list(kept["letter"]) == ["C1", "C2", "C3", "C4"]
+    assert list(kept["claims"]) == ["C1", "C2", "C3", "C4"] and "letter" not in kept
     assert kept["claims"]["C4"]["here"] == list(networks()[3].here) and kept["claims"]["C4"]["runs"] == 20
     text = (cache_folder / "claims" / "alternatives.json").read_text()
     assert "NaN" not in text and json.loads(text)["claims"]["C5"]["here"][1:] == [None, None]
@@ -36,35 +36,39 @@ def test_claims_are_kept_as_data_and_a_bound_that_does_not_exist_as_null(record,
 
 def test_a_record_has_all_claims_of_its_page_or_stays_as_it_was(record, cache_folder):
     report.save("paper_c", networks()[:3])
-    report.save("paper_c", networks(), letter=networks()[1:])
     report.save("paper_c")
     assert report.load() == record
 
 
-def test_a_table_of_a_page_has_both_readings_and_leads_to_what_the_verdicts_rest_on():
-    table = report.table(networks(), networks(*paper_c()[::-1]))
+def test_claims_to_the_letter_are_kept_apart(cache_folder):
+    report.save("paper_c", networks(), reading="letter")
+    assert not report.load()["claims"] and list(report.load()["letter"]) == ["C1", "C2", "C3", "C4"]
+
+
+def test_a_table_leads_to_what_the_verdicts_rest_on_and_has_the_readings_that_were_judged():
+    assert report.table(networks()).splitlines()[0] == "| Claim | Thesis | Here | Verdict |"
+    kept = {"claims": report.kept(networks()), "letter": report.kept(networks(*paper_c()[::-1]))}
+    table = report.rows(kept, ["C2"])
     assert table.splitlines()[0] == "| Claim | Thesis | To the letter | Calibrated | Verdict |"
     found = row(table, "C2")
     assert found.startswith('| **<a href="../book/claims.md#claim-c2" title=') and STATEMENTS["C2"].statistic in found
     assert found.endswith("| > 0 | ○\u00a0−0.30 [−0.31, −0.29] | ●\u00a00.10 [0.09, 0.11] | reproduced |")
 
 
-def test_what_a_verdict_rests_on_is_its_sentence_and_the_numbers_of_both_readings():
-    kept = {"claims": report._kept(networks()), "letter": report._kept(networks(*paper_c()[::-1]))}
-    (item,) = report.evidence(kept, ["C1"])
-    assert "“The neoRL network from illustration 4a improves" in item and "(paper C, section 3)" in item
-    header, _, rise, lead, *_ = item.split("\n\n")[1].splitlines()
-    assert header == "  | Number | Rule | Here, 20 runs or more | To the letter, 20 runs or more |"
-    assert rise == ("  | Final reward per second of A, less its early one | more than 0 | ✓\u00a00.05 [0.05, 0.05] | "
+def test_what_a_verdict_rests_on_is_the_numbers_of_both_readings():
+    kept = {"claims": report.kept(networks()), "letter": report.kept(networks(*paper_c()[::-1]))}
+    header, _, rise, lead, *_ = report.numbers(kept, "C1").splitlines()
+    assert header == "| Number | Rule | Here, 20 runs or more | To the letter, 20 runs or more |"
+    assert rise == ("| Final reward per second of A, less its early one | more than 0 | ✓\u00a00.05 [0.05, 0.05] | "
                     "✓\u00a00.40 [0.40, 0.40] |")
-    assert lead.startswith("  | lead over Brownian motion | more than 0 | ✓\u00a00.05 [")
+    assert lead.startswith("| lead over Brownian motion | more than 0 | ✓\u00a00.05 [")
 
 
 def test_a_number_has_a_mark_if_it_decides_and_a_part_says_what_it_makes_of_the_claim():
     numbers = {"D / C": (Estimate(1.6, 1.3, 1.9), Bounds(low=1.5), "asked"),
                "D": (Estimate(1, 0.9, 1.1), Bounds(high=0.5, why="half"), "asked"),
                "C": (Estimate(1, 0.9, 1.1), Bounds(high=2.0), "part"), "B": (Estimate(1, 0.9, 1.1), None, "shown")}
-    kept = {"claims": report._kept([Claim("C4", numbers["D"][0], numbers, 10, "partly")]), "letter": {}}
+    kept = {"claims": report.kept([Claim("C4", numbers["D"][0], numbers, 10, "partly")]), "letter": {}}
     assert [line.split(" | ")[1:] for line in report.numbers(kept, "C4").splitlines()[2:]] == [
         ["1.5 or more", "?\u00a01.60 [1.30, 1.90] |"], ["0.5 or less (half)", "✗\u00a01.00 [0.90, 1.10] |"],
         ["partly if 2 or less", "✓\u00a01.00 [0.90, 1.10] |"], ["", "1.00 [0.90, 1.10] |"]]
@@ -72,10 +76,9 @@ def test_a_number_has_a_mark_if_it_decides_and_a_part_says_what_it_makes_of_the_
 
 @pytest.fixture
 def record(cache_folder):
-    report.save("paper_c", networks(), letter=networks(*paper_c()[::-1]))
+    report.save("paper_c", networks())
     report.save("alternatives", [replace(layers(runs=1)[0], name=name) for name in ("A10", "C5")])
-    report.save("assumptions", shares={"C2": {"reproduced": 64, "undecided": 26, "contradicted": 128, "readings": 256,
-                                               "agrees": 2, "measured": 40}})
+    report.save("calibration", shares={"C2": {"agrees": 2, "measured": 40}})
     return report.load((cache_folder / "claims").iterdir())
 
 
@@ -95,6 +98,5 @@ def test_readings_are_drawn_beside_the_verdicts(record):
     axes = plt.gca()
     assert [tick.get_text() for tick in axes.get_yticklabels()] == [
         "C2  reproduced", "C5  no verdict", "T5  not computed"]
-    assert [(bar.get_x(), bar.get_width()) for bar in axes.patches] == [(0, 0.25), (0.25, 26 / 256), (90 / 256, 0.5)]
-    assert [each.get_text() for each in axes.texts] == ["64 of 256", *2 * ["not varied over readings"]]
-    assert [line.get_xydata().tolist() for line in axes.lines] == [[[0.05, 0]]]
+    assert [bar.get_width() for bar in axes.patches] == [0.05]
+    assert [each.get_text() for each in axes.texts] == ["2 of 40", *2 * ["not varied over readings"]]

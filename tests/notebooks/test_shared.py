@@ -9,10 +9,11 @@ import pytest
 
 from companion.shared import marks, opening, provenance, report, side_by_side
 from companion.shared.fields import superposed_field
+from companion.shared.pins import PINS
 from companion.shared.priors import BEYOND
 from companion.shared.thesis_figures import draw_against_thesis
 from companion.shared.wording import number, scientific, table
-from neorl import GREEDY, WaterWorld, superpose
+from neorl import WaterWorld, superpose
 from neorl.drawing.style import linear_light
 from companion.thesis.reading import TO_THE_LETTER, Reading
 from neorl.statistics import Estimate
@@ -56,9 +57,10 @@ def claims(runs=10, full_length=True, **verdicts):
 def test_a_box_has_verdicts_by_reading_with_links_or_says_that_there_are_none():
     judged = {"calibrated": claims(A2="reproduced", A3="partly", A4="reproduced"),
               "": claims(C1="not testable", T9="partly", B5="refuted by proof", C2="undecided")}
-    calibrated, nameless = opening.found(judged).split("\n\n")[2:4]
+    words, calibrated, nameless = opening.found(judged).split("\n\n")[2:5]
+    assert words == "Calibrated: the weakest single map earns 0.10 [0.05, 0.20] a second more than Brownian motion."
     names = re.findall(r'<a href="../book/claims.md#claim-\w+" title="[^"]+">(\w+)</a>', calibrated)
-    assert calibrated.startswith("Calibrated: ") and names == ["A2", "A4", "A3"]
+    assert names == ["A2", "A4", "A3"]
     assert re.sub("<[^>]+>|\u00a0", "", nameless) == (
         "?C2 undecided (more runs would tell); ◇C1 not testable (the agents learned too little). "
         "Counted apart: ∎B5 refuted by proof. Beside the claims: ◐T9 partly")
@@ -85,12 +87,23 @@ def test_variants_of_a_reading_are_those_that_differ_and_its_choices_are_open_or
 
 def test_every_constant_has_a_source_and_the_value_of_the_code():
     constants = {each.name: each for each in provenance.constants()}
-    assert {choice.label for choice in BEYOND.values()} <= set(constants)
     assert all(each.value and each.source for each in constants.values())
     assert constants["side of the tank"].value == f"{WaterWorld().width} pixels"
-    assert constants["exploration, ε"].value == f"{GREEDY.exploration:g}"
     assert constants["steps of a run, paper A"].value == "150,000" and constants["creeps, paper A"].value == "8"
     assert constants["creeps, papers B and C"].source.startswith("paper B")
+
+
+def test_every_choice_stands_once_with_its_sentence_its_values_and_the_claims_that_it_matters_for():
+    head, _, *rows = provenance.choices({"memory": ["A6", "A7"]}).splitlines()
+    assert len(rows) == len(PINS) and head.endswith("| To the letter | Calibrated | Matters for |")
+    valued = [row for row in rows if row.split(" | ")[-2]]
+    assert len(valued) == len(BEYOND)
+    (memory,) = [row for row in rows if row.startswith("| memory")]
+    assert memory.endswith(f"| 0 | {BEYOND['memory'].words(Reading().choices['memory'])} | A6, A7 |")
+    (rate,) = [row for row in rows if row.startswith("| learning rate")]
+    assert "“is a ‘learning factor’” (section 4.1.3, equation 4.6)" in rate and "0.0122 (*ours*)" in rate
+    (ties,) = [row for row in rows if row.startswith("| ties")]
+    assert "| open, not varied | random | random |" in ties
 
 
 def test_a_field_has_the_superposition_of_every_cell():
@@ -101,6 +114,7 @@ def test_a_field_has_the_superposition_of_every_cell():
 
 def test_only_what_the_thesis_has_a_number_for_is_marked_as_its_own():
     here = {"reward": Estimate(1, 0, 2), "states": Estimate(4, 3, 5)}
-    axes = draw_against_thesis({"reward": None, "states": 5.9}, {"calibrated": here}, "times")
+    axes = draw_against_thesis({"reward": None, "states": 5.9}, here, "times")
     assert [text.get_text() for text in axes.texts] == ["thesis 5.9"]
-    assert not draw_against_thesis(dict.fromkeys(here), {"calibrated": here}, "times").texts
+    axes = draw_against_thesis(dict.fromkeys(here), here, "times", {"all": 9.0})
+    assert [text.get_text() for text in axes.texts] == ["all"] and axes.get_xlim()[1] > 9

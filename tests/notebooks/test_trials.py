@@ -1,4 +1,4 @@
-"""Trials of paper B's agents, against runs followed step by step."""
+"""Trials of paper B's agents, on its page and in chapter 5, against runs followed step by step."""
 
 import numpy as np
 import pytest
@@ -6,6 +6,7 @@ import pytest
 import neorl
 from neorl import Condition, Learning
 from neorl.agents import papers
+from companion.chapter_5 import trials as changes
 from companion.paper_b import trials
 from companion.thesis.reading import Reading
 
@@ -32,12 +33,12 @@ def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets()
 
 
 def test_the_desired_place_moves_and_experience_is_worth_something():
-    _, moved, seconds = trials.distances(Condition(PLACE, TANK, 40_000, 2))
+    _, moved, seconds = changes.distances(Condition(PLACE, TANK, 40_000, 2))
     assert moved["ignorant"].shape == moved["experienced"].shape == (2, 6, 150) and seconds[-1] == 30
     run = neorl.Run(PLACE, TANK, 0, 1)
     run.advance(10_000)
-    for place in trials.PLACES:
-        run.change(trials.desiring(PLACE, place))
+    for place in changes.PLACES:
+        run.change(changes.desiring(PLACE, place))
         run.advance(1_500)
         at = run.world_state.scene.position / 250 - place.coordinates
         assert np.hypot(*at) in moved["experienced"][1, :2, -1]
@@ -74,19 +75,9 @@ def test_an_object_is_the_goal_or_the_state():
             np.testing.assert_array_equal(values[cell], expected)
         best = np.delete(values.max(axis=1), centre)
         assert trials.best_values(run)[1] == pytest.approx(best.mean()) and best.any()
-    sizes = trials.size_and_cost(learned, 10, repetitions=1)
-    assert {name: values for name, (values, _) in sizes.items()} == {"self": 4 * (4 + 25), "object": 4 * (16 + 625)}
 
 
 def test_a_map_of_one_cell_has_no_other_to_go_to():
     run = neorl.Run(papers.multimodal([1, 3], **READING.agents), TANK)
     run.advance(3_000)
     assert trials.best_values(run)[[0, 2]].tolist() == [0, 0] and trials.best_values(run)[[1, 3]].all()
-
-
-def test_a_desire_that_moves_is_a_condition_that_can_be_rerun(cache_folder):
-    result = trials.live_with_moving_desire(PLACE, TANK, 4_001, 2, seed=3)
-    assert (result.steps, result.runs, result.seed) == (1_000 + 2 * 1_500, 2, 3)
-    assert result.agent == PLACE
-    assert [step for step, _ in result.changes] == [1_000, 2_500]
-    assert [later.desires[0].source for _, later in result.changes] == [*trials.PLACES]

@@ -29,10 +29,21 @@ def judged(rules, ran, wanted):
 def of_papers(results, reading, *groups):
     """The claims of the papers that a reading judges by results of groups of its conditions: a list, see `judged`.
 
-    results: {key: `Result`}, with the keys of `companion.thesis.reading.GROUPS` among them.
+    results: of all that was run, which its agents and worlds tell apart, a list.
     """
     wanted = papers(reading, *groups)
-    return judged(lambda: readings.judge({key: results[key] for key in wanted}).values(), results, wanted)
+    ran = by_condition(results, wanted)
+    return judged(lambda: readings.judge(ran).values(), ran, wanted)
+
+
+def by_condition(results, wanted):
+    """The results of the conditions that are wanted, the longest of each and of these the one with most runs.
+
+    results: a list. wanted: {key: `Condition`}. Returns {key: `Result`}, without keys that none has.
+    """
+    of_key = {key: [result for result in results if same(result, condition)]
+              for key, condition in wanted.items()}
+    return {key: max(some, key=lambda result: (result.steps, result.runs)) for key, some in of_key.items() if some}
 
 
 def papers(reading, *groups):

@@ -1,6 +1,7 @@
-"""The box *What was found*, in Markdown: the verdict on each claim of a page, with its symbol.
+"""The box *What was found*, in Markdown: what was found in words, and the verdict on each claim with its symbol.
 
-With too few runs for verdicts, or too short ones, the box says so instead.
+The words are those of `Statement.finding`, of the claims that have some. With too few runs for verdicts, or too short
+ones, the box says so instead.
 """
 
 from html import escape
@@ -17,30 +18,47 @@ def found(judged):
     claims = [claim for claims in judged.values() for claim in claims]
     if not claims:
         return ""
-    lines = [_line(reading, {claim.name: claim.verdict for claim in claims}) for reading, claims in judged.items()
-             if claims]
+    lines = []
+    for reading, some in judged.items():
+        lines += [in_words({claim.name: claim.here for claim in some}, reading),
+                  _line({claim.name: claim.verdict for claim in some})] if some else []
     runs = min(claim.runs for claim in claims)
     if runs < RUNS_FOR_A_VERDICT or not all(claim.full_length for claim in claims):
         shorter = ", some shorter" * any(not claim.full_length for claim in claims)
         lines = [f"**Quick look: no verdicts.** They need {RUNS_FOR_A_VERDICT} runs of full length; here are "
                  f"{runs}{shorter}."]
+    return box("**What was found**", *lines)
+
+
+def box(*paragraphs):
+    """A box of paragraphs, in Markdown; empty ones are left out."""
     # A blank line ends the HTML, so that the text between the two tags is parsed as Markdown.
-    return "\n\n".join(['<div class="found">', "**What was found**", *lines, "</div>"])
+    return "\n\n".join(['<div class="found">', *filter(None, paragraphs), "</div>"])
 
 
-def _line(reading, found):
-    """One reading's verdicts, each with the claims that have it: "Calibrated: ● A2, A7 reproduced; ◐ A3 partly".
+def in_words(numbers, reading=""):
+    """What was found under a reading, in a sentence; "" if no claim has words for it. numbers: {claim: its number}."""
+    words = [STATEMENTS[name].finding.format(here=here) for name, here in numbers.items() if STATEMENTS[name].finding]
+    sentence = "; ".join(words).replace("; and ", ", and ")
+    text = f"{reading}: {sentence}" if reading and words else sentence
+    return f"{text[:1].upper()}{text[1:]}." if words else ""
+
+
+def _line(found):
+    """Verdicts, each with the claims that have it: "● A2, A7 reproduced; ◐ A3 partly".
 
     Claims that are not about agents follow the others, and then demonstrations.
     """
-    groups = {"": [], "Counted apart: ": [], "Beside the claims: ": []}
-    for title, some in zip(groups, (AGENTS, CLAIMS, STATEMENTS)):
-        of_group = {name: found.pop(name) for name in [*found] if name in some}
-        for verdict in sorted({*of_group.values()}, key=VERDICTS.index):
-            names = ", ".join(link(name) for name, each in of_group.items() if each == verdict)
-            groups[title].append(f"{html(verdict)}\u00a0{names} {explained(verdict)}")
-    lines = [f"{title}{'; '.join(verdicts)}" for title, verdicts in groups.items() if verdicts]
-    return f"{reading.capitalize()}{': ' if reading else ''}{'. '.join(lines)}"
+    groups = {"": AGENTS, "Counted apart: ": CLAIMS, "Beside the claims: ": STATEMENTS}
+    lines = [(title, by_verdict({name: found.pop(name) for name in [*found] if name in some}))
+             for title, some in groups.items()]
+    return ". ".join(f"{title}{verdicts}" for title, verdicts in lines if verdicts)
+
+
+def by_verdict(found):
+    """Claims with their verdicts, {name: verdict}, as "● A2, A7 reproduced; ◐ A3 partly"."""
+    return "; ".join(f"{html(verdict)}\u00a0{', '.join(link(name) for name in found if found[name] == verdict)} "
+                     f"{explained(verdict)}" for verdict in sorted({*found.values()}, key=VERDICTS.index))
 
 
 def link(name, page=CLAIMS_PAGE):

@@ -8,6 +8,7 @@ import ast
 from functools import partial
 from pathlib import Path
 
+from companion.thesis.reading import READINGS
 from neorl import checks
 
 FINEST = 90  # intervals per axis, of the finest map in the thesis
@@ -34,11 +35,6 @@ def _from_text(values):
     return ast.literal_eval(values) if isinstance(values, str) else values
 
 
-def _power_of_two(name, value):
-    if checks.integer(name, value, 4) & (value - 1):
-        raise checks.error(name, "a power of two", value, "choose 8, 16, 32, 64 or 128")
-
-
 def _file(name, value):
     path = Path(checks.instance(name, value, str))
     if value and (path.is_dir() or not path.parent.is_dir()):
@@ -53,16 +49,20 @@ def _number(at_least, at_most):
     return partial(checks.real, at_least=at_least, at_most=at_most)
 
 
+def _one_of(choices):
+    return lambda name, value: checks.one_of(name, value, choices)
+
+
 RESOLUTION = _whole(1, FINEST)
 RULES = {
-    "runs": _whole(1), "steps": _whole(1), "seed": _whole(0), "points": _power_of_two,
+    "reading": _one_of(tuple(READINGS)), "runs": _whole(1), "steps": _whole(1), "seed": _whole(0),
     "n": RESOLUTION, "resolution": _whole(1, 50),  # pages time copies of agents with such a map, of 0.1 GB each
     "resolutions": partial(_list, each=RESOLUTION),
     "layers": partial(_list, each=RESOLUTION), "counts": partial(_list, each=_whole(1, 6)),
     "stays": partial(_list, each=_whole(1, 1_000)), "n_creeps": _whole(1, MOST_CREEPS),
     "place_gain": _number(0, 100), "recursion": _number(-100, 100), "learning_rate": _number(1e-3, 1),
     "exploration": _number(0, 1), "memory": _whole(1, 8), "bonus": _number(0, 10), "begin": _number(0.1, 0.9),
-    "traffic": _whole(0, 64), "decisions": _whole(200), "nearest": _whole(0, 10), "sample": _whole(0, 100),
+    "traffic": _whole(0, 64), "decisions": _whole(200), "sample": _whole(0, 100),
     "keep": _file,
 }
 

@@ -1,7 +1,6 @@
-"""The source of every constant: the thesis, the environment it used, the author's public code, or this book.
+"""What the text fixes and leaves open, choice by choice, and the source of every other constant, as Markdown tables.
 
-The values are read from the code that uses them, and the sources of a reading's choices from `companion.shared.pins`,
-so the table always agrees with both.
+Values are read from the code that uses them, and sentences from `companion.shared.pins`, so the tables agree with both.
 """
 
 import re
@@ -11,7 +10,7 @@ from companion.shared import wording
 from companion.shared.pins import PINS
 from companion.shared.priors import BEYOND, WITHIN
 from companion.shared.smoothing import CUTOFF_PERIODS, FILTER_ORDER
-from companion.thesis.reading import LAYERS, LENGTHS, PRIMES, SINGLE, Reading, conditions
+from companion.thesis.reading import LAYERS, LENGTHS, PRIMES, SINGLE, TO_THE_LETTER, Reading, conditions
 from companion.thesis.statements import STATEMENTS
 from neorl.experiments.run import BIN_SECONDS
 from neorl.worlds import waterworld
@@ -19,7 +18,6 @@ from neorl.worlds import waterworld
 PLE = "WaterWorld of the PyGame Learning Environment, rules confirmed against recordings of it"
 AUTHOR = "the author's later public code"
 OURS = "this book's choice"
-CALIBRATED = "value by calibration"
 
 
 class Constant(NamedTuple):
@@ -31,10 +29,10 @@ class Constant(NamedTuple):
 
 
 def constants():
-    """Every `Constant` on which a result of the book depends."""
+    """Every `Constant` on which a result of the book depends, beside the choices of a reading."""
     default = conditions(Reading(), max(LENGTHS.values()), 1)
     eight, three = default["layers"].world, default["both"].world
-    fixed = [
+    return [
         Constant("side of the tank", f"{three.width} pixels", AUTHOR),
         Constant("radius of agent and creeps", f"{three.radius} pixels", PLE),
         Constant("acceleration of an action", "a quarter of the width per second, each step", PLE),
@@ -56,41 +54,46 @@ def constants():
         Constant("filter of paper B's curves", f"Butterworth, order {FILTER_ORDER}, {CUTOFF_PERIODS} periods per run",
                  "paper B, section 3; order and cutoff are " + OURS),
     ]
-    return fixed + [Constant(choice.label, choice.words(Reading().choices[name]), source(name))
-                    for name, choice in BEYOND.items()]
-
-
-def source(name):
-    """The source of the default of one of the `choices` of a `Reading`, in words."""
-    places = []
-    for pin in PINS:
-        if pin.fields[:1] == (name,) and pin.place:
-            if pin.status == "open":
-                places.append(f"open in {pin.place}")
-            else:
-                places.append(pin.place if pin.allows(Reading()) else f"against {pin.place}")
-    return "; ".join(dict.fromkeys([*places, CALIBRATED] if name in WITHIN else places))
 
 
 def table():
-    """The constants as a Markdown table."""
+    """The constants."""
     return wording.table(["Constant", "Value", "From"], constants())
 
 
-def of_pins(labels):
-    """All pins as two Markdown tables, with other labels of fields, {field: name}."""
-    parts = []
-    for status in ("pinned", "open"):
-        rows = [[_called(pin, labels), f"“{pin.quotation}” ({pin.place})" if pin.quotation else "–", pin.follows]
-                for pin in PINS if pin.status == status]
-        parts += [f"**{status.capitalize()}**", wording.table(["Choice", "What the text says", "What follows"], rows)]
-    raised = re.sub(r"\^(\w+)", r"<sup>\1</sup>", "\n\n".join(parts))
+def choices(matters):
+    """Every choice: the sentence that bears on it, what it may be, its value in two readings, and what it matters for.
+
+    matters: {name of a choice: names of claims}. A choice with several sentences has its values beside the last.
+    """
+    last = {name: pin for pin in PINS for name in pin.fields[:1]}
+    rows = []
+    for pin in PINS:
+        name = next((name for name in pin.fields[:1] if last[name] is pin), None)
+        about = f"“{pin.quotation}” ({pin.place})" if pin.quotation else "–"
+        rows.append([_called(pin), f"{about}<details><summary>What follows</summary>{pin.follows}</details>",
+                     *_values(pin, name), ", ".join(matters.get(name, ()))])
+    head = ["Choice", "What the text says", "May be", "To the letter", "Calibrated", "Matters for"]
+    raised = re.sub(r"\^(\w+)", r"<sup>\1</sup>", wording.table(head, rows))
     return re.sub(r"_(\w+)", r"<sub>\1</sub>", raised)
 
 
-def _called(pin, labels):
-    others = [labels[name] for name in pin.fields if labels.get(name, pin.choice) != pin.choice]
-    return pin.choice + (f" (*{'*, *'.join(others)}*)" if others else "")
+def _values(pin, name):
+    """What a choice may be, and its value to the letter and calibrated, in words; "" beside a sentence more."""
+    if name is None:
+        return "pinned" if pin.status == "pinned" else "", "", ""
+    choice, letter = BEYOND[name], TO_THE_LETTER.choices[name]
+    prior = WITHIN[name].prior if name in WITHIN else ()
+    ours = "" if isinstance(prior, tuple) or letter == prior.apart else " (*ours*)"
+    fixed = "pinned" if pin.status == "pinned" else "open, not varied"
+    return (WITHIN[name].stated if name in WITHIN else fixed, f"{choice.words(letter)}{ours}",
+            choice.words(Reading().choices[name]))
+
+
+def _called(pin):
+    """The name of a choice, and those of the same choice in figures where they differ."""
+    labels = [BEYOND[name].label for name in pin.fields if BEYOND[name].label != pin.choice]
+    return pin.choice + (f" (*{'*, *'.join(labels)}*)" if labels else "")
 
 
 def _listed(resolutions):

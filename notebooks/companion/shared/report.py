@@ -1,15 +1,14 @@
 """The findings on the claims, as pages report them: tables in Markdown, and the record that a page saves.
 
 A record is a JSON file for each page, in the folder ``claims`` of the cache. It has the claims that the page has judged
-under the book's reading ("claims") and under the reading to the letter ("letter"), or, from the page of assumptions,
-the shares of readings within the text under which claims hold ("shares"). `book/ledger.py` makes the page of
-all claims from the records.
+under the reading that it ran, or the shares of readings within the text that agree with claims ("shares"). Together
+they have the claims under the book's reading ("claims"), those under the reading to the letter ("letter") and the
+shares. `book/ledger.py` makes the page of all claims from the records.
 """
 
 import json
 import re
 from collections import Counter
-from textwrap import indent
 
 import numpy as np
 
@@ -23,25 +22,29 @@ from neorl.experiments.condition import source_digest
 from neorl.files import cache_folder, write_whole
 
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
+NAMES = {"letter": LETTER, "calibrated": CALIBRATED}  # by those of a page's parameter
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
 LEGEND = (f"{legend()}; without a symbol, no verdict. Numbers: the quantities in italics, with 95\u00a0% intervals "
           "over runs. Intervals of times can lie below the time, since noise reaches a level early. A claim's name "
           "leads to what its verdict rests on.")
 BESIDE = "Demonstrations of this book, not counted among the claims:"
-PARTS = ("claims", "letter", "shares")  # of a record
+PART_OF = {"calibrated": "claims", "letter": "letter"}  # of readings
+PARTS = ("claims", "letter", "shares")  # of all records together
 CLAIMS_OF = {"alternatives": ("A10", "C5"), "chapter_2": ("H1",), "chapter_3": ("T3", "T4"), "chapter_4": ("T5", "T7"),
+             "chapter_5": ("T1", "T2", "T6"),
              "other_spaces": ("G1", "G2", "G3", "G4"), "paper_a": (*(f"A{n}" for n in range(1, 10)), "A11", "T9"),
-             "paper_b": (*(f"B{n}" for n in range(1, 8)), "T1", "T2", "T6", "T8"), "paper_c": ("C1", "C2", "C3", "C4")}
+             "paper_b": (*(f"B{n}" for n in range(1, 8)), "T8"), "paper_c": ("C1", "C2", "C3", "C4"),
+             "assumptions": (*(f"A{n}" for n in range(1, 10)), "A11", "B1", "B2", "B3", "B4", "B6", "C1", "C2", "C3",
+                             "C4", "T1", "T6")}  # the last to the letter
 MISSING = None, "", "", ""  # a number under one reading that the other has not
-ONCE = {"T5"}  # judged under one reading beside claims that are judged under two
 
 
-def table(claims, letter=()):
-    """Claims as a Markdown table, then demonstrations."""
-    record = {"claims": _kept(claims), "letter": _kept(letter)}
+def table(claims):
+    """Claims as a Markdown table, then demonstrations, and a legend; "" if there are none."""
+    record = {"claims": kept(claims), "letter": {}}
     some, others = ([claim.name for claim in claims if claim.name in kind] for kind in (CLAIMS, DEMONSTRATIONS))
-    parts = [extract(record, some)] if some else []
-    return "\n\n".join([*parts, *([BESIDE, extract(record, others)] if others else [])])
+    parts = ([rows(record, some)] if some else []) + ([BESIDE, rows(record, others)] if others else [])
+    return "\n\n".join([*parts, LEGEND]) if parts else ""
 
 
 def comparison(judged):
@@ -60,28 +63,32 @@ def errata(place=""):
     return re.sub(r"\^([A-Z]+)", r"<sup>\1</sup>", rows)
 
 
-def save(page, claims=(), shares=None, letter=()):
+def save(page, claims=(), shares=None, reading="calibrated"):
     """Save the findings of a page as JSON, with the digest of the source that computed them.
 
-    A record is complete: nothing is saved unless all claims of the page are judged, under both readings where there are
-    two.
-    shares: {name of a claim: counts of readings within the text}, by verdict in short runs, with their sum "readings",
-    and with "agrees" and "measured" if there are counts at the papers' lengths too. A missing bound is null.
+    A record is complete: nothing is saved unless all claims of the page are judged.
+    reading: under which they are, a name in `READINGS`. shares: {name of a claim: {"agrees", "measured"}}, counts of
+    readings within the text, run at the papers' lengths. A missing bound is null.
     """
-    wanted, calibrated, literal = {*CLAIMS_OF.get(page, ())}, _names(claims), _names(letter)
-    if calibrated != wanted or literal and literal != wanted - ONCE:
+    if {claim.name for claim in claims} != {*CLAIMS_OF.get(page, ())}:
         return
-    content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
-               "shares": shares or {}}
+    content = {"page": page, "source": source_digest(), PART_OF[reading]: kept(claims), "shares": shares or {}}
     write_whole(cache_folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())
 
 
 def load(paths=None):
-    """Load records, by default all that are saved, as one: {"claims": {name: …}, "letter": …, "shares": …}."""
+    """Load records, by default all that are saved, as one: {"claims": {name: …}, "letter": …, "shares": …}.
+
+    A claim that two pages have judged is that of more runs.
+    """
     paths = sorted((cache_folder() / "claims").glob("*.json")) if paths is None else paths
     records = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
-    return {part: {name: found for record in records for name, found in record.get(part, {}).items()}
-            for part in PARTS}
+    merged = {part: {} for part in PARTS}
+    for part, known in merged.items():
+        for name, found in (each for record in records for each in record.get(part, {}).items()):
+            if found.get("runs", 0) >= known.get(name, {}).get("runs", 0):
+                known[name] = found
+    return merged
 
 
 def number(found):
@@ -94,17 +101,11 @@ def verdict(record, name):
     return record["claims"].get(name, {"verdict": NOT_COMPUTED})["verdict"]
 
 
-def extract(record, names):
-    """Some claims of a record, as `load` returns it, as a Markdown table without its empty columns, and its legend."""
-    head, rows = wording.filled(COLUMNS, [_cells(record, name) for name in names])
+def rows(record, names):
+    """Some claims of a record, as `load` returns it, as a Markdown table without its empty columns."""
+    head, cells = wording.filled(COLUMNS, [_cells(record, name) for name in names])
     head = head if "To the letter" in head else ["Here" if each == "Calibrated" else each for each in head]
-    return f"{wording.table(head, rows)}\n\n{LEGEND}"
-
-
-def evidence(record, names):
-    """A list item for each claim: the sentence that is judged, and a table of the numbers that its rule compares."""
-    return [f"- **{name}** “{STATEMENTS[name].quotation}” ({STATEMENTS[name].place})."
-            + indent(f"\n\n{numbers(record, name)}", "  ").rstrip() for name in names]
+    return wording.table(head, cells)
 
 
 def numbers(record, name):
@@ -126,7 +127,8 @@ def label(rule):
     return f"rule-{rule.replace('_', '-')}"
 
 
-def _kept(claims):
+def kept(claims):
+    """Claims as a record has them: {name: data}."""
     return {claim.name: {"here": _bounded(claim.here), "runs": claim.runs, "verdict": claim.verdict,
                          "numbers": {what: [_bounded(found), *_decided(found, bounds, role)]
                                      for what, (found, bounds, role) in claim.numbers.items()}} for claim in claims}
@@ -142,10 +144,6 @@ def _decided(found, bounds, role):
 
 def _marked(found, _, mark, role):
     return (f"{mark}\u00a0" if mark else "") + number({"here": found}) if role else ""
-
-
-def _names(claims):
-    return {claim.name for claim in claims}
 
 
 def _bounded(found):

@@ -1,6 +1,6 @@
 """Figures that compare results with the numbers that the thesis reports.
 
-The thesis's numbers are in grey and labelled with their value; results have a colour and a marker for each reading.
+The thesis's numbers are in grey and labelled with their value; results have a colour.
 """
 
 import numpy as np
@@ -9,7 +9,6 @@ from matplotlib.text import Annotation
 from companion.shared.style import mark
 from neorl.drawing.style import CURVES, INK, SMALL, axes_or_new, name_ends, width_of_figures
 
-MARKERS = "osD^vP*"  # of readings, one for each colour
 ROW = 0.62  # inches
 ROOM = 0.06  # of the height of a panel, left beyond the marked levels
 LIFTS = 4, -4, -12, 12, -20, 20  # points from a level to its name, tried in this order
@@ -17,13 +16,14 @@ CLEAR = 3  # points between the vertical axis and a name beside it
 REACH = 0.5  # of the range of the numbers: intervals are cut off that far beyond them
 
 
-def draw_against_thesis(thesis, readings, xlabel):
+def draw_against_thesis(thesis, found, xlabel, lines=()):
     """Draw numbers of the thesis beside the results, a row for each, with dots and 95 % intervals.
 
-    thesis: {label: number, or None where it has none}. readings: {name: {label: Estimate}}, with the same labels. An
-    interval that reaches far beyond all numbers is cut off, with an arrow at the edge.
+    thesis: {label: number, or None where it has none}. found: {label: Estimate}, with the same labels. lines: {name:
+    number}, for all rows, at most two. An interval that reaches far beyond all numbers is cut off, with an arrow at the
+    edge.
     """
-    rows = np.arange(len(thesis))
+    rows, colour = np.arange(len(thesis)), CURVES[0]
     axes = axes_or_new(None, figsize=(width_of_figures(), 1.1 + ROW * len(rows)))
     printed = {row: number for row, number in enumerate(thesis.values()) if number is not None}
     marked = np.array([*printed])
@@ -31,24 +31,21 @@ def draw_against_thesis(thesis, readings, xlabel):
     names = [axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), xytext=(0, 0),
                            textcoords="offset points", fontsize=SMALL, ha="center", va="bottom")
              for row, number in printed.items()]
-    intervals = []
-    shifts = 0.5 * (np.arange(len(readings)) - (len(readings) - 1) / 2) / max(len(readings), 1)
-    for (name, found), shift, colour, marker in zip(readings.items(), shifts, CURVES, MARKERS):
-        value, low, high = np.array([found[label] for label in thesis]).T
-        axes.plot(value, rows + shift, color=colour, linestyle="none", marker=marker, markersize=6, label=name)
-        axes.hlines(rows + shift, low, high, color=colour)
-        intervals += zip(rows + shift, low, high, [colour] * len(rows))
+    value, low, high = np.array([found[label] for label in thesis]).T
+    axes.plot(value, rows, color=colour, linestyle="none", marker="o", markersize=6)
+    axes.hlines(rows, low, high, color=colour)
+    for (name, number), dashes in zip(dict(lines).items(), ((0, (5, 3)), ":")):
+        axes.axvline(number, color=INK, linewidth=1.1, linestyle=dashes, zorder=1)
+        mark(axes, (number, 1), name, xycoords=("data", "axes fraction"), xytext=(0, 3), textcoords="offset points",
+             ha="center", va="bottom")
     axes.set(yticks=rows, yticklabels=thesis, ylim=(len(rows) - 0.5, -0.75), xlabel=xlabel)
-    values = [*printed.values(), *(estimate.value for found in readings.values() for estimate in found.values())]
-    low, high = sorted(axes.get_xlim())
-    reach = REACH * (max(values) - min(values)) or np.inf
-    left, right = axes.set_xlim(max(low, min(values) - reach), min(high, max(values) + reach))
-    for height, low, high, colour in intervals:
-        for cut, end, sign in ((low < left, left, "<"), (high > right, right, ">")):
+    values = [*printed.values(), *dict(lines).values(), *value]
+    reach, (left, right) = REACH * (max(values) - min(values)) or np.inf, sorted(axes.get_xlim())
+    left, right = axes.set_xlim(max(left, min(values) - reach), min(right, max(values) + reach))
+    for height, begin, end in zip(rows, low, high):
+        for cut, edge, sign in ((begin < left, left, "<"), (end > right, right, ">")):
             if cut:
-                axes.plot(end, height, color=colour, marker=sign, markersize=6, clip_on=False)
-    if readings:
-        axes.legend(frameon=False, ncols=len(readings), loc="lower center", bbox_to_anchor=(0.5, 1), borderpad=0.2)
+                axes.plot(edge, height, color=colour, marker=sign, markersize=6, clip_on=False)
     _keep_right_of_the_axis(axes, names)
     return axes
 

@@ -1,5 +1,6 @@
-"""The study of what the thesis leaves open: the multiverse of readings, and the calibration to its printed numbers.
+"""The study of what the thesis leaves open: the search for a reading that agrees with its printed numbers, and on which
+choices the claims depend.
 
-The pages on assumptions and on calibration show it. `calibration.csv` is the table of calibrated readings, which
-``python notebooks/calibrate.py`` continues.
+`calibration.csv` is the table of readings that were run at the papers' lengths, which ``python notebooks/calibrate.py``
+continues. The page of claims and those on the text and on the search draw their conclusions from it.
 """

@@ -1,7 +1,7 @@
 """Calibration: which values of the choices that the thesis leaves open reproduce all of its printed numbers at once?
 
 The method is history matching (Craig et al. 1997; Vernon et al. 2010), a search that rules out implausible readings
-rather than one that climbs to the best fit. The page on calibration explains it. Its steps:
+rather than one that climbs to the best fit. The page on the search explains it. Its steps:
 
 1. `calibrate` runs a *design*, readings spread evenly through the priors within the text. All are run in the two cheap
    groups of conditions, and the first 48 in every group, so that the others are not run for favourites alone.
@@ -15,8 +15,9 @@ rather than one that climbs to the best fit. The page on calibration explains it
 4. `screen` runs readings again that agree with most targets in few runs, wherever in the priors they lie.
 5. `rescale` runs the leading one in paper C with other units of a desire vector, which concern no other paper.
 6. `confirm` runs the leading readings again with fresh seeds, since a search over noisy numbers finds lucky ones.
+7. `set_back` runs the book's reading with one choice at a time set back to the letter.
 
-Every row has its own seed, so that no tank's luck is shared by all; only rescaled rows keep that of the row they vary.
+Every row has its own seed, so that no tank's luck is shared by all; only rows that vary one reading share theirs.
 """
 
 import time
@@ -30,7 +31,7 @@ from companion.study import calibration_table
 from companion.study.calibration_table import Row
 from companion.study.calibration_targets import GROUPS, TARGETS
 from neorl.agents.papers import LAYERS
-from companion.thesis.reading import TO_THE_LETTER
+from companion.thesis.reading import TO_THE_LETTER, Reading
 from neorl.extras import require
 
 RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
@@ -174,6 +175,18 @@ def confirm(table, n, runs, seed=0, memories=None):
     return [*table, *_complete([replace(new, steps=row.steps) for new, row in zip(again, first)])]
 
 
+def set_back(table, runs, seed):
+    """Run the reading to the letter, and the default with each choice that departs from it set back, in every group.
+
+    Those that a table has already are left out.
+    """
+    here, letter = Reading(), TO_THE_LETTER.choices
+    readings = [here.varied(**{name: letter[name]}) for name in WITHIN if here.choices[name] != letter[name]]
+    known = {row.reading for row in table if row.complete}
+    rows = _new_rows(table, [reading for reading in (TO_THE_LETTER, *readings) if reading not in known], runs, seed)
+    return [*table, *_complete([replace(row, seed=rows[0].seed) for row in rows])]
+
+
 def _next_wave(table):
     return 1 + max((row.wave for row in table), default=0)
 
@@ -240,11 +253,12 @@ def _short(value):
 class Emulator:
     """Random forests that predict the statistics of a reading from its choices, one for each group with enough rows.
 
-    A prediction's uncertainty combines the disagreement of the trees and the noise of a few runs.
+    A prediction's uncertainty combines the disagreement of the trees and the noise of a few runs. `explained` has the
+    R² of each target in the rows of the design, each predicted by the trees that were grown without it.
     """
 
     def __init__(self, table, seed=0):
-        self.forests, self.noise = {}, {}
+        self.forests, self.noise, self.explained = {}, {}, {}
         for group, members in GROUPS.items():
             rows = [row for row in table if group in row.groups]
             if len(rows) >= FEWEST:
@@ -252,10 +266,14 @@ class Emulator:
                 scaled = [_clipped(TARGETS[name], found[:, i, 0]) / TARGETS[name].scale
                           for i, name in enumerate(members.targets)]
                 forest = require("sklearn.ensemble", extra="book").RandomForestRegressor(
-                    TREES, min_samples_leaf=LEAF, max_features=0.5, random_state=seed)
+                    TREES, min_samples_leaf=LEAF, max_features=0.5, random_state=seed, oob_score=True)
                 self.forests[group] = forest.fit(features([row.reading for row in rows]),
                                                  np.squeeze(np.transpose(scaled)))
                 self.noise[group] = np.median(found[:, :, 1], axis=0)
+                even = [i for i, row in enumerate(rows) if row.wave == 0]
+                known, unseen = np.transpose(scaled)[even], forest.oob_prediction_.reshape(len(rows), -1)[even]
+                residue = np.mean((known - unseen) ** 2, axis=0) / known.var(axis=0)
+                self.explained |= dict(zip(members.targets, 1 - residue))
 
     def predict(self, readings):
         """The mean and the standard deviation of each predicted target: {name: (mean, deviation)}, (readings,) each."""

@@ -14,7 +14,6 @@ from pathlib import Path
 import numpy as np
 
 from companion.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, distance, measure
-from neorl import checks
 from companion.thesis.reading import Reading, conditions as all_conditions
 from neorl.experiments.simulation import sweep
 
@@ -78,18 +77,6 @@ def measured(row, results):
     """The row with the statistics of results, {key of the condition: `Result`}, for each group that is complete."""
     groups = [name for name, group in GROUPS.items() if all(key in results for key in group.keys)]
     return replace(row, statistics={name: each for group in groups for name, each in measure(group, results).items()})
-
-
-def rerun(table, n, group, seed=0):
-    """Recompute n rows of a table in a group: [(row as stored, row as recomputed), …], which should be equal.
-
-    Raises ValueError if n is not an integer from 0 to the number of rows that were run in the group.
-    """
-    rows = [replace(row, statistics={name: row.statistics[name] for name in GROUPS[group].targets})
-            for row in table if group in row.groups]
-    drawn = np.random.default_rng(seed).choice(len(rows), checks.integer("n", n, 0, len(rows)), replace=False)
-    kept = [rows[i] for i in sorted(drawn)]
-    return list(zip(kept, run([replace(row, statistics={}) for row in kept], group)))
 
 
 def nearest(table):

@@ -20,9 +20,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from companion.shared.marks import DECIDED
 from neorl import checks
 from companion.thesis.statements import STATEMENTS, Bounds
-from neorl.statistics import WINDOW, first_time, rates_in_windows
+from neorl.statistics import WINDOW, Estimate, first_time, rates_in_windows
 from companion.thesis.verdict import EARLY, FINAL, VISIBLE
 
 BROWNIAN_A, BROWNIAN_B = 0.03, 0.1  # what Brownian motion earns per second with 8 creeps and with 3
@@ -55,6 +56,11 @@ class Target:
     def holds(self, value):
         """Whether a value agrees with the thesis."""
         return self.low <= value <= self.high
+
+    def mark(self, value, error):
+        """How a value agrees, two errors on either side: ✓ inside, ✗ outside, or ? across an end."""
+        found = Estimate(value, value - 2 * error, value + 2 * error)
+        return DECIDED[Bounds(self.low, self.high).decide(found)]
 
     def distance(self, value, error=0.0):
         """How far a value lies outside the interval: ≥ 0, see point 4 of the module. Takes numbers and arrays."""

@@ -126,6 +126,12 @@ class Reading:
 
 # What the text prints or pins; where it leaves more, the simplest or the middle of a prior, as the pins say.
 TO_THE_LETTER = Reading(**papers.TO_THE_LETTER, place_gain=1.0, scale=papers.LITERAL_SCALE, paper_a_fps=PAPER_FPS)
+READINGS = {"calibrated": Reading(), "letter": TO_THE_LETTER}  # by the names of a page's parameter
+
+
+def named(reading: Reading) -> str:
+    """The name in `READINGS` of the reading whose agents are made alike. Raises StopIteration if none is."""
+    return next(name for name, other in READINGS.items() if other.agents == reading.agents)
 
 
 def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,

@@ -68,6 +68,7 @@ class Statement:
     bounds: Bounds
     also: Mapping[str, Bounds]
     kind: str = "agents"  # one of KINDS
+    finding: str = ""
 
 
 STATEMENTS = {
