@@ -6,6 +6,7 @@
 """
 
 import tomllib
+from collections import Counter
 from html import escape
 from pathlib import Path
 
@@ -40,10 +41,17 @@ def headline(record):
                 "runs of each condition, and this build has fewer.")
     calibrated = _reproduced(record["claims"], AGENTS)
     return (f"With every gap of the text filled by what it prints, or by the simplest value (“to the letter”), "
-            f"{_reproduced(record['letter'], AGENTS)} of the thesis’s {len(AGENTS)} claims about agents are reproduced."
-            f" With {_departing()} of the {len(WITHIN)} gaps filled by other values, which fit best (“calibrated”), "
-            f"{calibrated} are: {_reproduced(record['claims'], FITTED)} of the {len(FITTED)} claims that were used for "
-            f"the fit, and {_reproduced(record['claims'], NOT_FITTED)} of the other {len(NOT_FITTED)}.")
+            f"{_reproduced(record['letter'], AGENTS)} of the thesis’s {len(AGENTS)} claims about agents are reproduced "
+            f"({runs(record)} runs of each condition). With {_departing()} of the {len(WITHIN)} gaps filled by other "
+            f"values, which fit best (“calibrated”), {calibrated} are: {_reproduced(record['claims'], FITTED)} of the "
+            f"{len(FITTED)} claims that were used for the fit, and {_reproduced(record['claims'], NOT_FITTED)} of the "
+            f"other {len(NOT_FITTED)}.")
+
+
+def runs(record):
+    """The number of runs of most claims about agents, 0 if none was judged."""
+    of_claims = Counter(record["claims"][name]["runs"] for name in AGENTS if name in record["claims"])
+    return max(of_claims, key=of_claims.get, default=0)
 
 
 def dependence(record, found):

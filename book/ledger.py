@@ -11,7 +11,7 @@ from collections import Counter
 from html import escape
 
 import curves
-from answer import APART, CAPTION, dependence, figure, headline, sections
+from answer import APART, CAPTION, dependence, figure, headline, runs, sections
 from companion.shared import marks, report
 from companion.shared.opening import anchor
 from companion.study import sensitivity
@@ -74,12 +74,6 @@ def counts(record, names):
     """The number of some claims with each verdict: {verdict: count}, without verdicts that none has."""
     found = Counter(report.verdict(record, name) for name in names)
     return {verdict: found[verdict] for verdict in marks.MARKS if found[verdict]}
-
-
-def runs(record):
-    """The number of runs of most claims about agents, 0 if none was judged."""
-    found = Counter(record["claims"][name]["runs"] for name in AGENTS if name in record["claims"]).most_common(1)
-    return found[0][0] if found else 0
 
 
 def strip(record, names, address=""):

@@ -122,8 +122,9 @@ def test_one_headline_stands_on_all_pages_and_counts_what_was_used_to_choose_the
     departing = sum(Reading().choices[name] != TO_THE_LETTER.choices[name] for name in WITHIN)
     assert headline == (
         "With every gap of the text filled by what it prints, or by the simplest value (“to the letter”), 1 of the "
-        f"thesis’s {len(AGENTS)} claims about agents are reproduced. With {departing} of the {len(WITHIN)} gaps filled "
-        "by other values, which fit best (“calibrated”), 2 are: 1 of the 13 claims that were used for the fit, and 1 "
+        f"thesis’s {len(AGENTS)} claims about agents are reproduced ({ledger.runs(RECORD)} runs of each condition). "
+        f"With {departing} of the {len(WITHIN)} gaps filled by other values, which fit best (“calibrated”), 2 are: 1 "
+        "of the 13 claims that were used for the fit, and 1 "
         f"of the other {len(AGENTS) - 13}.")
 
 

@@ -26,7 +26,7 @@ def test_claims_are_written_between_the_marks_and_nothing_else_is_touched():
     text = "before\n<!-- claims: make readme -->\nold\n<!-- end of claims -->\nafter | \\1\n"
     found = {"here": [0.49, 0.48, 0.51], "runs": 20, "verdict": "reproduced", "numbers": {}}
     new = readme.by_verdict({"claims": {"B3": found, "B5": found | {"verdict": "refuted by proof"}}, "letter": {}})
-    assert new.startswith("Of ") and "(20 runs of each condition)" in new
+    assert new.startswith("With every gap of the text filled") and "(20 runs of each condition)" in new
     assert all(new.count(f"**{name}** {each.text}") == 1 for name, each in STATEMENTS.items())
     assert re.search(r"^\| ●\u00a0reproduced \| \*\*B3\*\* .*; here 0.49 \[0.48, 0.51\]\) \|$", new, re.MULTILINE)
     assert re.search(r"Counted apart:\n\n(.*\n){2}\| ∎\u00a0refuted by proof \| \*\*B5\*\* ", new)
