@@ -93,12 +93,11 @@ def looks(count):
     return [(CURVES[i % len(CURVES)], DASHES[i // len(CURVES) % len(DASHES)]) for i in range(count)]
 
 
-def name_ends(axes, ends, line=0.075, beside=1.02):
+def name_ends(axes, ends, line=0.075):
     """Write the names of curves beside their ends (height, name, colour), moved apart within the height of the axes.
 
     line: the room that a name needs, as a share of the height of the axes; more in a low panel. Many names are written
-    in smaller letters to fit. beside: where they begin, as a share of the width of the axes. Returns their heights,
-    from the lowest end to the highest.
+    in smaller letters to fit. Returns their heights, from the lowest end to the highest.
     """
     scale = axes.yaxis.get_transform()  # names are spread on the page, so on a logarithmic axis by logarithms
     low, high = scale.transform(np.array(axes.get_ylim(), float))
@@ -109,6 +108,6 @@ def name_ends(axes, ends, line=0.075, beside=1.02):
     heights = scale.inverted().transform(apart + np.clip(lowest, low, high - apart.max(initial=0.0)))
     size = max(CROWDED, share * plt.rcParams["font.size"])
     for at, (_, name, colour) in zip(heights, ends):
-        axes.annotate(name, (beside, at), xycoords=("axes fraction", "data"), color=letters(colour), va="center",
+        axes.annotate(name, (1.02, at), xycoords=("axes fraction", "data"), color=letters(colour), va="center",
                       fontsize=size, annotation_clip=False)
     return heights

@@ -1,13 +1,12 @@
 """What pages share: tables, marks, the box of findings, readings side by side, figures with the thesis's numbers."""
 
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from companion.shared import marks, opening, provenance, report, side_by_side
+from companion.shared import marks, opening, provenance, report
 from companion.shared.fields import superposed_field
 from companion.shared.pins import PINS
 from companion.shared.priors import BEYOND
@@ -15,7 +14,7 @@ from companion.shared.thesis_figures import draw_against_thesis
 from companion.shared.wording import number, scientific, table
 from neorl import WaterWorld, superpose
 from neorl.drawing.style import linear_light
-from companion.thesis.reading import TO_THE_LETTER, Reading
+from companion.thesis.reading import Reading, changed
 from neorl.statistics import Estimate
 from companion.thesis.verdict import VERDICTS, Claim
 
@@ -75,14 +74,10 @@ def test_a_box_of_few_or_short_runs_has_no_verdicts(runs, full_length, said):
     assert "A2" not in box and "**Quick look: no verdicts.**" in box and said in box
 
 
-def test_variants_of_a_reading_are_those_that_differ_and_its_choices_are_open_or_pinned():
+def test_variants_of_a_reading_are_those_that_differ():
     reading = Reading().varied(memory=0.0, exploration=0.1)
-    made = side_by_side.changed(reading, {"no memory": {"memory": 0.0}, "greedy": {"exploration": 0.0}})
+    made = changed(reading, {"no memory": {"memory": 0.0}, "greedy": {"exploration": 0.0}})
     assert made == {"greedy": reading.varied(exploration=0.0)}
-    choices = side_by_side.choices({"letter": TO_THE_LETTER, "far": replace(TO_THE_LETTER, recursion=2.0)},
-                                   ["recursion", "network_resolutions"])
-    assert choices.splitlines()[2:] == ["| recursion, r | pinned to −1 | −1 | 2 |",
-                                        "| resolutions, C | open | {3, 7, 23} | {3, 7, 23} |"]
 
 
 def test_every_constant_has_a_source_and_the_value_of_the_code():

@@ -5,7 +5,7 @@
 3. The rules of `companion.thesis.claims` judge it, on every claim for which the available conditions suffice.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
@@ -132,6 +132,12 @@ READINGS = {"calibrated": Reading(), "letter": TO_THE_LETTER}  # by the names of
 def named(reading: Reading) -> str:
     """The name in `READINGS` of the reading whose agents are made alike. Raises StopIteration if none is."""
     return next(name for name, other in READINGS.items() if other.agents == reading.agents)
+
+
+def changed(reading: Reading, changes: Mapping[str, Mapping[str, Any]]) -> dict[str, Reading]:
+    """Variants of a reading by name, but for those equal to it. changes: {name: {choice: value}}."""
+    made = {name: reading.varied(**change) for name, change in changes.items()}
+    return {name: variant for name, variant in made.items() if variant != reading}
 
 
 def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
