@@ -10,19 +10,18 @@ from collections import Counter
 from html import escape
 from pathlib import Path
 
-from companion.shared import marks, report
+from companion.shared import marks, opening, report
 from companion.shared.opening import anchor
 from companion.shared.pins import PINS
 from companion.shared.priors import WITHIN
 from companion.shared.wording import table
 from companion.study.calibration_targets import CLAIMS as FITTED
 from companion.thesis.reading import TO_THE_LETTER, Reading
-from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
-from companion.thesis.verdict import RUNS_FOR_A_VERDICT
+from companion.thesis.statements import AGENTS, APART, CLAIMS, STATEMENTS
+from companion.thesis.verdict import FAILED, RUNS_FOR_A_VERDICT
 
 ANSWERS = tomllib.loads((Path(__file__).parent / "answers.toml").read_text(encoding="utf-8"))
 NOT_FITTED = tuple(name for name in AGENTS if name not in FITTED)
-APART = tuple(name for name in CLAIMS if name not in AGENTS)
 BLOCKS = {"Used to choose the calibrated reading": FITTED, "Not used": NOT_FITTED,
           "By proof or counting, about our code, or a report": APART}
 DECIDING = 5  # choices that are listed
@@ -31,7 +30,6 @@ NEVER = "None of the readings drawn evenly within the text agrees."
 CAPTION = ("Bars: the share of readings, drawn evenly within the text and run twice at the papers’ lengths, in which "
            "the means agree with the thesis; they were counted for the claims used for the fit. A claim leads to its "
            "line below.")
-FAILED = ("contradicted", "refuted by proof", "counter-example found")
 
 
 def headline(record):
@@ -168,7 +166,7 @@ def _reproduced(found, names):
 
 
 def _link(name):
-    return f'<a href="#{anchor(name)}" title="{escape(STATEMENTS[name].text)}">{name}</a>'
+    return opening.link(name, page="")
 
 
 def _lower(name):

@@ -13,24 +13,22 @@ from dataclasses import replace
 
 from companion.chapter_5.trials import TIMED
 from companion.shared import judging, opening, report
+from companion.shared.marks import leads
 from companion.shared.report import CLAIMS_OF, LEGEND, NAMES, PART_OF
 from companion.thesis import claims
 from companion.thesis.reading import additions
-from companion.thesis.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS
-from companion.thesis.verdict import RUNS_FOR_A_VERDICT
+from companion.thesis.statements import AGENTS, APART, CLAIMS, DEMONSTRATIONS, STATEMENTS
+from companion.thesis.verdict import FAILED, RUNS_FOR_A_VERDICT
 
 SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "A9", "A11", "B1", "B2", "B3", "B4", "B6", "T6")
 SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
 CARRYING = {"Superposition": ("A6", "B2", "B3", "B6"), "Learning apart from behaviour": ("C3", "C4", "T1", "T7")}
 GROUND = tuple(name for name in AGENTS if name not in SUPERPOSITION + SEPARATION)
-APART = tuple(name for name in CLAIMS if name not in AGENTS)
 GROUPS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION, "What both rest on": GROUND,
           "Counted apart": APART, "Beside the claims": DEMONSTRATIONS}
 OWN = CLAIMS_OF["chapter_5"]
 WITHOUT_READING = [name for page in ("alternatives", "chapter_2", "chapter_3", "other_spaces")
                    for name in CLAIMS_OF[page]]  # claims of pages that run no reading
-FAILED = ("contradicted", "refuted by proof", "counter-example found")
-NONE = ("no verdict", report.NOT_COMPUTED)
 
 
 def judge(ran, reading, moved, costs):
@@ -61,7 +59,7 @@ def answer(record, reading):
     stand = [f"{name.lower()} {standing(record, names)}" for name, names in CARRYING.items()]
     lines = [f"**{NAMES[reading].capitalize()}: {'; '.join(stand)}.**"]
     for conclusion, names in CARRYING.items():
-        found = {name: record["claims"][name] for name in names if report.verdict(record, name) not in NONE}
+        found = {name: record["claims"][name] for name in names if leads(report.verdict(record, name))}
         words = opening.in_words({name: report.number(each) for name, each in found.items()})
         verdicts = opening.by_verdict({name: each["verdict"] for name, each in found.items()})
         lines += [f"*{conclusion}.* {words} {verdicts}."] if found else []
@@ -73,7 +71,7 @@ def answer(record, reading):
 def standing(record, names):
     """Whether what rests on some claims stands, see rule 2, in words."""
     verdicts = [report.verdict(record, name) for name in names]
-    if all(verdict in NONE for verdict in verdicts):
+    if not any(map(leads, verdicts)):
         return "is not judged"
     if all(verdict == "reproduced" for verdict in verdicts):
         return "stands"

@@ -27,6 +27,7 @@ VISIBLE = 0.01  # reward per second: the smallest lead that a figure shows
 VERDICTS = ("reproduced", "partly", "contradicted", "undecided", "not testable", "refuted by proof",
             "counter-example found", "no verdict")
 CONTRADICTED = {"proof": "refuted by proof", "report": "counter-example found"}  # of a kind of statement
+FAILED = ("contradicted", *CONTRADICTED.values())
 
 
 @dataclass(frozen=True)
