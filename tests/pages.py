@@ -61,7 +61,7 @@ MEASURED = {  # the cells that show measured times
     "agent_in_one_file": {"comparison"}, "alternatives": {"costs-table"}, "beyond_agents": {"e65b2d27"},
     "chapter_4": {"cell-45", "cell-46", "pace"}, "own_world": {"cell-13"},
     "chapter_5": {"cell-35", "claims-of-all"},
-    "performance": {"cell-06", "cell-08", "cell-09", "cell-13", "cell-18", "minutes", "cell-20"}}
+    "performance": {"cell-08", "cell-09", "cell-13", "cell-18"}}
 OK, BAD = "ok", (None, {}, float("nan"))
 RESET = "get_ipython().reset(new_session=True)\n__spec__ = None"  # processes that are spawned look up the latter
 

@@ -12,21 +12,21 @@ from companion.performance import bound, rivals, timing
 from companion.shared import notebook
 from neorl import CALIBRATED, Run, WaterWorld, place_cells
 
-STEPS, LIVED = 1_000, 3_000
+STEPS, WARM_UP = 1_000, 3_000
 
 
 @pytest.fixture(scope="module")
 def stretch():
-    return rivals.record(5, STEPS, LIVED)
+    return rivals.record(5, STEPS, WARM_UP)
 
 
-def test_a_recorded_stretch_is_the_life_of_the_agent_to_the_last_bit(stretch):
-    q, lived = stretch.q.copy(), Run(place_cells([5], learning=rivals.PLAIN), WaterWorld())
-    lived.advance(LIVED)
-    assert np.array_equal(q, lived.q())
-    lived.advance(STEPS)
+def test_a_recorded_stretch_is_the_run_of_the_agent_to_the_last_bit(stretch):
+    q, alone = stretch.q.copy(), Run(place_cells([5], learning=rivals.PLAIN), WaterWorld())
+    alone.advance(WARM_UP)
+    assert np.array_equal(q, alone.q())
+    alone.advance(STEPS)
     rivals.by_kernel(stretch, q, stretch.goal_range.copy())
-    assert np.array_equal(q, lived.q()) and not np.array_equal(q, stretch.q) and stretch.learns.sum() > 30
+    assert np.array_equal(q, alone.q()) and not np.array_equal(q, stretch.q) and stretch.learns.sum() > 30
 
 
 def test_all_rivals_compute_the_same(stretch):

@@ -8,8 +8,7 @@
 4. A *series* is x_t = z_t + u_t (Wold; eq. 4.1). The noise y_t is white, and z_t = y_t + b_1 y_{t−1} + b_2 y_{t−2} + …
    The deterministic part u_t is one oscillation, with a phase drawn for each run.
 5. `decompose` sees only the series. It takes the oscillation with the least squared error for u_t, predicts the rest
-   from its past by least squares, and takes the prediction errors, called *innovations*, for y_t. The coefficients b_k
-   are those of the regression of the rest on the innovations, as Wold defines them.
+   from its past by least squares, and takes the prediction errors, called *innovations*, for y_t.
 """
 
 from typing import NamedTuple
@@ -17,10 +16,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy import linalg, optimize, signal
 
-NEAR = 5  # units within which a walk has reached a goal
 DIRECTIONS = np.concatenate([np.eye(3, dtype=np.int32), -np.eye(3, dtype=np.int32)])
 PAST = 20  # values of the past that predict the next one
-LENGTHS = (300, 1_000, 3_000, 10_000, 30_000)  # of the series that `errors` decomposes, in steps
 
 
 def walk(strength, goal, steps, runs, seed=0):
@@ -54,12 +51,6 @@ def _towards(to_goal):
     return axis + 3 * behind
 
 
-def first_arrivals(paths, goal):
-    """First step at which each walk is within `NEAR` units of a goal: float64 (runs,), infinite if it never is."""
-    near = np.linalg.norm(paths - np.array(goal), axis=2) < NEAR
-    return np.where(near.any(axis=1), near.argmax(axis=1), np.inf)
-
-
 def mean_squared_displacement(paths, lags):
     """Mean squared displacement of walks over lags, averaged over all starting steps: float64 (runs, lags)."""
     paths = paths.astype(float)  # squares of 32-bit integers would soon be too large
@@ -76,19 +67,12 @@ def expected_squared_displacement(strength, lags):
     return (1 - strength**2) * lags + (strength * lags) ** 2
 
 
-def powers_of_time(squared, lags):
-    """Power of time with which distance grows, at first and at last: float64 (2, runs)."""
-    return np.array([np.log(squared[:, j] / squared[:, i]) / np.log(lags[j] / lags[i]) / 2
-                     for i, j in ((0, 2), (-4, -1))])
-
-
 class Parts(NamedTuple):
     """A decomposed series, without its first `PAST` values, whose past is too short to predict them."""
 
     deterministic: np.ndarray  # u_t: float64 (steps − PAST,)
     stochastic: np.ndarray  # z_t: float64 (steps − PAST,)
     innovations: np.ndarray  # y_t: float64 (steps − PAST,)
-    coefficients: np.ndarray  # b_1, b_2, …: float64 (order,)
 
 
 def generate(coefficients, amplitude, period, steps, run=0, seed=0):
@@ -100,12 +84,11 @@ def generate(coefficients, amplitude, period, steps, run=0, seed=0):
     oscillation = amplitude * np.cos(2 * np.pi * (np.arange(steps) / period + rng.random()))
     noise = rng.normal(size=steps + len(coefficients))
     filtered = signal.lfilter([1, *coefficients], 1, noise)[len(coefficients):]
-    parts = (each[PAST:] for each in (oscillation, filtered, noise[len(coefficients):]))
-    return filtered + oscillation, Parts(*parts, np.array(coefficients))
+    return filtered + oscillation, Parts(*(each[PAST:] for each in (oscillation, filtered, noise[len(coefficients):])))
 
 
-def decompose(series, order):
-    """Decompose a series into `Parts`, with b_1 … b_order. series: float64 (steps,), more than twice `PAST`."""
+def decompose(series):
+    """Decompose a series into `Parts`. series: float64 (steps,), more than twice `PAST`."""
     spectrum = np.abs(np.fft.rfft(series))
     peak = 1 + spectrum[1:-1].argmax()
     frequency = optimize.minimize_scalar(lambda each: np.square(series - _oscillation(each, series)).sum(),
@@ -114,27 +97,7 @@ def decompose(series, order):
     rest = series - deterministic
     past = linalg.toeplitz(rest[PAST - 1 : -1], rest[PAST - 1 :: -1])
     innovations = rest[PAST:] - past @ _least_squares(past, rest[PAST:])
-    earlier = np.stack([innovations[order - k : -k] for k in range(1, order + 1)], axis=1)
-    coefficients = _least_squares(earlier, rest[PAST + order :])
-    return Parts(deterministic[PAST:], rest[PAST:], innovations, coefficients)
-
-
-def errors(coefficients, period, longest, runs, seed=0):
-    """Errors of `decompose` on series of `generate`, by length: {steps: float64 (3, runs)}.
-
-    They are the root mean square errors of u_t and of y_t, and the largest error of b_1, b_2, …; the oscillation has an
-    amplitude of 1. `LENGTHS` greater than the longest are left out.
-    """
-    return {steps: np.transpose([_error(coefficients, period, steps, run, seed) for run in range(runs)])
-            for steps in LENGTHS if steps <= longest}
-
-
-def _error(coefficients, period, steps, run, seed):
-    series, true = generate(coefficients, 1.0, period, steps, run, seed)
-    found = decompose(series, order=len(coefficients))
-    return [np.sqrt(np.mean((found.deterministic - true.deterministic) ** 2)),
-            np.sqrt(np.mean((found.innovations - true.innovations) ** 2)),
-            np.abs(found.coefficients - true.coefficients).max()]
+    return Parts(deterministic[PAST:], rest[PAST:], innovations)
 
 
 def _oscillation(frequency, series):

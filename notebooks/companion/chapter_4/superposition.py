@@ -21,41 +21,35 @@ ANGLES = np.pi * np.arange(60) / 60
 CONVERGED = 1e-12  # remaining share of the initial error of a plan
 
 
-class Ridges(NamedTuple):
-    """A sum of ridges fitted to a function."""
-
-    angles: np.ndarray  # θ of each ridge: float64 (terms,)
-    errors: np.ndarray  # root mean square residual of 0, 1, … ridges: float64 (terms + 1,), in standard deviations
-
-
 class Comparison(NamedTuple):
     """Superposition against the plan for all elements at once, in the states without an element, for each placement.
 
     Losses are shares of the plan's return averaged over placements, since in some placements it earns nothing.
     """
 
-    agreement: np.ndarray  # share of the actions of superposition that are best: float64 (placements,)
-    achieved: np.ndarray  # 1 less the loss from following them: float64 (placements,)
+    achieved: np.ndarray  # 1 less the loss from following the sum: float64 (placements,)
     at_random: np.ndarray  # 1 less the loss from drawing actions: float64 (placements,)
 
 
-def fit_ridges(values, terms, angles=ANGLES):
-    """Fit `Ridges` to a function on the square from −1 to 1: (side, side), y first."""
+def fit_ridges(values, terms):
+    """Residuals of sums of 0, 1, … ridges fitted to a function on the square from −1 to 1: float64 (terms + 1,).
+
+    values: of the function, (side, side), y first. Residuals are root mean squares, in standard deviations of it.
+    """
     side = np.linspace(-1, 1, len(values))
     x, y = (each.ravel() for each in np.meshgrid(side, side))
-    outer = [np.linalg.qr(np.vander((x * np.cos(angle) + y * np.sin(angle)) / 2, DEGREE + 1))[0] for angle in angles]
+    outer = [np.linalg.qr(np.vander((x * np.cos(angle) + y * np.sin(angle)) / 2, DEGREE + 1))[0] for angle in ANGLES]
     left = values.ravel() - values.mean()
     spread = left.std()
-    chosen, errors, found = [], [1.0], np.empty((left.size, 0))
+    errors, fitted = [1.0], np.empty((left.size, 0))
     for _ in range(terms):
-        best = int(np.argmax([np.square(each.T @ left).sum() for each in outer]))
-        new = outer[best] - found @ (found.T @ outer[best])
+        best = max(outer, key=lambda each: np.square(each.T @ left).sum())
+        new = best - fitted @ (fitted.T @ best)
         directions, sizes, _ = np.linalg.svd(new, full_matrices=False)
-        found = np.hstack([found, directions[:, sizes > 1e-8]])  # without what earlier ridges span
-        left = left - found @ (found.T @ left)
-        chosen.append(angles[best])
+        fitted = np.hstack([fitted, directions[:, sizes > 1e-8]])  # without what earlier ridges span
+        left = left - fitted @ (fitted.T @ left)
         errors.append(left.std() / spread)
-    return Ridges(np.array(chosen), np.array(errors))
+    return np.array(errors)
 
 
 def plan(grid, rewards, discount=0.8):
@@ -105,13 +99,12 @@ def compare(grid, valences, placements, seed=0, discount=0.8):
     superposed = greedy(np.tensordot(rewards, plan(grid, np.eye(grid.states), discount), axes=1))
     best = plan(grid, rewards, discount)
     empty = rewards == 0
-    agreement = (superposed * (greedy(best) > 0)).sum(axis=-1)
     worth = {"best": best.max(axis=-1), "superposed": evaluate(grid, superposed, rewards, discount),
              "random": evaluate(grid, np.full_like(superposed, 0.25), rewards, discount)}
     worth = {name: (value * empty).sum(axis=-1) for name, value in worth.items()}
     usual = worth["best"].mean()
     achieved, at_random = (1 - (worth["best"] - worth[name]) / usual for name in ("superposed", "random"))
-    return Comparison((agreement * empty).sum(axis=-1) / empty.sum(axis=-1), achieved, at_random)
+    return Comparison(achieved, at_random)
 
 
 def cosines(vectors):

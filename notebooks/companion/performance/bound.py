@@ -23,13 +23,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from companion.performance.timing import LINE, always
+from companion.performance.timing import always
 from neorl.core.calls import execute
 from neorl.core.kernel import array, kernel
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream, randint
 from neorl.worlds.waterworld import Rules, WaterWorldState, reset, step
 
+LINE = 64  # bytes, in which memory moves
 NEAREST_CACHE = 2**15  # bytes, on most processors of the last decade
 RATES = np.full(4, 0.01, np.float32)
 

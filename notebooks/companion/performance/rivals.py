@@ -38,11 +38,11 @@ class Stretch(NamedTuple):
     goal_range: array("int64", "cells", 2)  # see `neorl.core.learning.MapValues`
 
 
-def record(resolution, steps, lived, seed=0):
-    """Record the `Stretch` of ``steps`` steps of a learner, after its first ``lived`` steps."""
+def record(resolution, steps, warm_up, seed=0):
+    """Record the `Stretch` of ``steps`` steps of a learner, after its first ``warm_up`` steps."""
     world = WaterWorld()
     run = Run(place_cells([resolution], learning=PLAIN), world, seed)
-    run.advance(lived)
+    run.advance(warm_up)
     (nres_map,), tracks, scene = run.agent.maps, run.state.tracks, run.world_state.scene
     found = Stretch(np.empty(steps + 1, int), np.zeros(steps, bool), np.zeros((steps, 4), np.float32),
                     np.empty((steps, world.things), int), np.empty((steps, world.things)), run.q().copy(),
