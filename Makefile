@@ -113,7 +113,7 @@ fuzz: .venv/ready
 
 lab: .venv/ready
 	$(BIN)/jupyter lab --ServerApp.root_dir=. --LabApp.default_url=/lab/tree/notebooks \
-	    --ContentsManager.pre_save_hook=companion.shared.saving.keep_source \
+	    --ContentsManager.pre_save_hook=companion.page.saving.keep_source \
 	    $(if $(filter 0,$(shell id -u)),--allow-root) $(ARGS)
 
 record: .venv/ready

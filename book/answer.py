@@ -10,11 +10,11 @@ from collections import Counter
 from html import escape
 from pathlib import Path
 
-from companion.shared import marks, opening, report
-from companion.shared.opening import anchor
-from companion.shared.pins import PINS
-from companion.shared.priors import WITHIN
-from companion.shared.wording import table
+from companion.page import marks, opening, report
+from companion.page.opening import anchor
+from companion.thesis.pins import PINS
+from companion.thesis.priors import WITHIN
+from companion.page.wording import table
 from companion.study.calibration_targets import CLAIMS as FITTED
 from companion.thesis.reading import TO_THE_LETTER, Reading
 from companion.thesis.statements import AGENTS, APART, CLAIMS, STATEMENTS

@@ -19,7 +19,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # has w
 import nbformat
 import papermill
 from excerpts import save_figures, save_widgets
-from companion.shared.opening import CLAIMS_PAGE
+from companion.page.opening import CLAIMS_PAGE
 from nbclient.exceptions import DeadKernelError
 from cells import of_page
 from papermill.exceptions import PapermillExecutionError, strip_color

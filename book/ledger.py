@@ -1,4 +1,4 @@
-"""The page of all claims, and what the first page says of them, from the records of `companion.shared.report`.
+"""The page of all claims, and what the first page says of them, from the records of `companion.page.report`.
 
 1. The page answers first (`answer.py`), and then has a line for each claim: the number that decides, here and in the
    thesis, and the verdict. A click opens what the verdict rests on.
@@ -11,9 +11,10 @@ from collections import Counter
 from html import escape
 
 import curves
+import levels
 from answer import APART, CAPTION, dependence, figure, headline, runs, sections
-from companion.shared import marks, report
-from companion.shared.opening import anchor
+from companion.page import marks, report
+from companion.page.opening import anchor
 from companion.study import sensitivity
 from companion.thesis.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS
 
@@ -31,7 +32,7 @@ def page(record, build):
     found = sensitivity.shipped()
     parts = [headline(record), dependence(record, found), figure(record),
              f"Verdicts: {legend(record)}. {CAPTION} {beside(record, build)}".rstrip(), *sections(record, found),
-             "## Claim by claim"]
+             levels.section(record), "## Claim by claim"]
     groups = {title: [name for name in AGENTS if name[0] == letter] for letter, title in CHAPTERS.items()}
     groups |= {title: [name for name in APART if STATEMENTS[name].kind == kind] for kind, title in KINDS.items()}
     for title, names in (groups | {"Beside the claims: demonstrations": DEMONSTRATIONS}).items():

@@ -15,7 +15,7 @@ from cells import of_page, tags
 
 NOTEBOOKS = Path(__file__).resolve().parents[1] / "notebooks"
 IMPORT = ast.Import | ast.ImportFrom
-ALWAYS = "notebook"  # its `begin` checks the parameters, and sets the style of figures
+BEGIN = "page.begin("  # checks the parameters, and sets the style of figures
 SAVE = 'from matplotlib import pyplot as plt\nplt.savefig("{name}.svg")'
 LINE = "#     .venv/bin/python book/programs.py {name} -p runs 4\n"
 HEAD = "# This draws the figure, in the folder notebooks. In the root of a clone, one line does:\n" + LINE
@@ -76,11 +76,12 @@ def program(cells, name):
     last = len(sources) - 1
     parts = [(*each, place == last) for place, source in enumerate(sources) for each in statements(source)]
     modules = {each.asname or each.name for node, *_ in parts if isinstance(node, IMPORT) for each in node.names}
-    kept, needed = [SAVE.format(name=name)], {ALWAYS}
+    kept, needed = [SAVE.format(name=name)], set()
     for node, text, draws in reversed(parts):
         table = symtable(text, name, "exec")
         bound = {each.get_name() for each in table.get_symbols() if each.is_assigned() or each.is_imported()}
-        changed = needed & (bound | changed_names(node) - modules | {ALWAYS} & changed_names(node))
+        changed = needed & (bound | changed_names(node) - modules)
+        draws = draws or ast.unparse(node).startswith(BEGIN)
         if isinstance(node, IMPORT):
             node.names = [each for each in node.names if (each.asname or each.name) in changed]
             text = ast.unparse(node)

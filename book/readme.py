@@ -9,8 +9,8 @@ sys.path.append(str(ROOT / "notebooks"))  # has what pages share
 
 # ruff: noqa: E402
 import ledger
-from companion.shared import report, wording
-from companion.shared.marks import symbol
+from companion.page import report, wording
+from companion.page.marks import symbol
 from companion.thesis.statements import AGENTS, DEMONSTRATIONS, STATEMENTS
 from record import of_book
 

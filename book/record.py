@@ -20,10 +20,10 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # has w
 
 # ruff: noqa: E402
 from compute import ROOT, records
-from companion.shared import report
+from companion.page import report
 from verify import recomputed
 
-from companion.thesis.reading import LENGTHS, READINGS, conditions
+from companion.thesis.reading import LENGTHS, NAMES, READINGS, conditions
 from companion.thesis.statements import AGENTS, STATEMENTS
 from neorl.experiments.condition import source_digest
 from neorl.files import write_whole
@@ -79,7 +79,7 @@ def few(claims, names):
 
 def sample():
     """The first run of each condition under each reading, as `summary` has it: {reading: {condition: [...]}}."""
-    wanted = {report.NAMES[name]: conditions(reading, LENGTHS["B"], 1, SEED) for name, reading in READINGS.items()}
+    wanted = {NAMES[name]: conditions(reading, LENGTHS["B"], 1, SEED) for name, reading in READINGS.items()}
     return {name: {key if isinstance(key, str) else " ".join(map(str, key)): summary(made[key]) for key in SAMPLED}
             for name, made in wanted.items()}
 

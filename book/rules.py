@@ -9,7 +9,7 @@ import sys
 import tomllib
 from pathlib import Path
 
-from companion.shared import report
+from companion.page import report
 from companion.thesis import claims
 from companion.thesis.statements import STATEMENTS
 

@@ -10,7 +10,7 @@ import contents
 import ledger
 import rules
 from compute import CHAPTERS, ROOT, records
-from companion.shared import report
+from companion.page import report
 from record import of_book
 
 from neorl.files import write_whole

@@ -47,16 +47,20 @@ from neorl.worlds.world import Dynamics, World
 
 __version__ = "0.1.0"
 __all__ = ["ABSENT", "Actions", "Agent", "Arena", "Arm", "Axis", "CALIBRATED", "CARDINAL", "Condition", "Contacts",
-           "Desire", "Dynamics", "GREEDY", "Learner", "Learning", "Modality", "Node", "NresMap", "Place", "Policy",
-           "Result", "Run", "Scene", "TO_THE_LETTER", "Trajectory", "Vessel", "WaterMaze", "WaterWorld", "World",
-           "array", "cartesian", "execute", "greedy", "heading", "kernel", "kernel_maker", "learn", "modality", "polar",
-           "randint", "simulate", "softmax", "superpose", "sweep", "turn", "uniform", "walls",
+           "Desire", "Dynamics", "Estimate", "GREEDY", "Learner", "Learning", "Modality", "Node", "NresMap", "Place",
+           "Policy", "Result", "Run", "Scene", "TO_THE_LETTER", "Trajectory", "Vessel", "WaterMaze", "WaterWorld",
+           "World", "array", "cartesian", "estimate", "execute", "greedy", "heading", "kernel", "kernel_maker", "learn",
+           "modality", "polar", "randint", "simulate", "softmax", "superpose", "sweep", "turn", "uniform", "walls",
            "brownian", "forager", "multimodal", "network_a", "network_b", "network_c", "network_d",
            "object_vector_cells", "place_cells"]
 
 
 def __getattr__(name):
-    if name == "Explorer":  # imported on demand: the rest of the package does not need anywidget
+    """What is imported on demand: the rest of the package needs neither anywidget nor SciPy."""
+    if name == "Explorer":
         from neorl.browser.explorer import Explorer
         return Explorer
+    if name in ("Estimate", "estimate"):
+        from neorl import statistics
+        return getattr(statistics, name)
     raise AttributeError(f"module 'neorl' has no attribute {name!r}")

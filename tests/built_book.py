@@ -75,7 +75,7 @@ def test_letters_of_figures_have_nine_pixels_on_a_phone():
 def test_the_page_of_alternatives_shows_its_figure_soon_and_its_tables_whole(open_page, width):
     page = open_page(HTML, "chapters/alternatives.html")
     page.set_viewport_size({"width": width, "height": 800})
-    assert page.locator("#fig-alternatives-curves").bounding_box()["y"] < 1_000
+    assert page.locator("#fig-alternatives-rewards").bounding_box()["y"] < 1_000
     tables = page.locator("article .pst-scrollable-table-container")
     assert tables.count() > 3
     assert not any(tables.evaluate_all("tables => tables.map(each => each.scrollWidth > each.clientWidth)"))

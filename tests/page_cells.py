@@ -1,17 +1,24 @@
-"""What the cells of a notebook define, for tests: a page's world, rules and toy systems are cells of its notebook."""
+"""Pages for tests: what their cells are, what they define when they run, and what they suggest."""
 
 import ast
 import json
 import re
+from contextlib import redirect_stdout
+from functools import cache
 from pathlib import Path
 from symtable import symtable
 from types import SimpleNamespace
 
-from cells import tags
+from cells import tags, with_values
 from markdown_it import MarkdownIt
+from matplotlib import pyplot as plt
 from programs import changed_names, figure_of, read_names, statements
 
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
+SMALL = {"runs": 2, "steps": 1_000, "seed": 0}
+ALSO_SMALL = {"alternatives": {"steps": 3_000}, "calibration": {"sample": 1, "steps": 2_000},
+              "chapter_3": {"steps": 3_000},
+              "other_spaces": {"decisions": 200}, "your_research": {"steps": 2_000}}
 HIDDEN = {"remove-input", "hide-input", "hide-cell"}
 
 
@@ -32,36 +39,26 @@ def suggested(page, section):
             re.findall(r"\.ipynb out\.ipynb (.*)", "\n".join(each.content for each in blocks)))
 
 
-def source(page, cell):
-    return code(page)[cell]
+@cache
+def executed(page, changes=(), **parameters):
+    """The names that a page defines, run whole at a small size, as attributes.
 
-
-def defined(page, *cells, **given):
-    """The names that cells define, as attributes. given: names that they look up, such as those of folded imports."""
-    names = {"__name__": f"cells_of_{page}", **given}
-    for cell in cells:
-        exec(compile(source(page, cell), f"{page}.ipynb, {cell}", "exec"), names)
-    return SimpleNamespace(**names)
-
-
-def planned(page, *cells, until=(), **given):
-    """The names that a page's parameters, imports and some of its cells define, with conditions in place of results.
-
-    until: lines that need results; a cell ends before the first of them. given: other values of names.
+    changes: pairs (text, other text) of its code, each of which must be there. parameters: its own.
     """
-    parameters, imports, *_ = code(page).values()
+    cells = code(page)
+    for text, other in changes:
+        assert any(text in cell for cell in cells.values()), text
+        cells = {name: cell.replace(text, other) for name, cell in cells.items()}
+    first = next(iter(cells))
+    named = set(re.findall(r"^(\w+): ", cells[first], re.MULTILINE))
+    small = {name: value for name, value in (SMALL | ALSO_SMALL.get(page, {})).items() if name in named}
+    cells[first] = with_values(cells[first], small | parameters)
     names = {"__name__": f"cells_of_{page}"}
-    exec(parameters, names)
-    chosen = {name: value for name, value in given.items() if name in names}
-    names |= chosen
-    exec(re.sub(r"notebook\.begin\([^)]*\)", "", imports), names)  # lists become tuples
-    names |= {"sweep": iter, **{name: value for name, value in given.items() if name not in chosen}}
-    for cell in cells:
-        text = source(page, cell)
-        for line in until:
-            text = text.partition(line)[0]
-        exec(compile(text, f"{page}.ipynb, {cell}", "exec"), names)
-    return names
+    with plt.rc_context(), redirect_stdout(None):
+        for name, cell in cells.items():
+            exec(compile(cell, f"{page}.ipynb, {name}", "exec"), names)
+            plt.close("all")
+    return SimpleNamespace(**names)
 
 
 def computed_below(cells, experiment, parameters):

@@ -30,16 +30,12 @@ from cells import tags, with_values
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 from nbformat.v4 import new_code_cell, new_notebook
-from page_cells import NOTEBOOKS, computed_below, suggested
+from page_cells import ALSO_SMALL, NOTEBOOKS, SMALL, computed_below, suggested
 from papermill.cli import _resolve_type as value_of
 from traitlets.config import Config
 
 from neorl.files import cache_folder
 
-SMALL = {"runs": 2, "steps": 1_000, "seed": 0}
-ALSO_SMALL = {"alternatives": {"steps": 3_000}, "calibration": {"sample": 1, "steps": 2_000},
-              "chapter_3": {"steps": 3_000},
-              "other_spaces": {"decisions": 200}, "your_research": {"steps": 2_000}}
 LEAST = {"runs": 1, "n": 1, "resolution": 1, "resolutions": [1], "layers": [1], "counts": [1], "stays": [1],
          "n_creeps": 1, "place_gain": 0.0, "recursion": 0.0, "learning_rate": 0.001, "exploration": 0.0, "memory": 1,
          "bonus": 0.0, "begin": 0.1, "traffic": 0, "sample": 0}

@@ -21,14 +21,14 @@ NOTEBOOKS = ("assumptions", "chapter_5", "paper_a")
 SIMULATE = """from pathlib import Path
 from IPython.display import SVG
 import neorl
-from companion.shared import report
+from companion.page import report
 result = neorl.simulate(neorl.place_cells([3]), neorl.WaterWorld(), steps=10_000, runs=runs, seed={seed},
                         cache=True, progress=False)
 lines = "".join(f"<path d='M{{k}} 0V{{abs(paid):.0f}}'/>" for k, paid in enumerate(result.rewards.ravel()))
 print(f"{{result.totals.sum():.6f}}")"""
 DRAW = """SVG(f"<svg xmlns='http://www.w3.org/2000/svg' width='75pt' height='30pt'>{lines * 20}</svg>")"""
 FIND_SHARES = "report.save('assumptions', shares={'A2': {'agrees': 1, 'measured': 4}})"
-CONCLUDE = """from companion.shared import report
+CONCLUDE = """from companion.page import report
 print(sorted(report.load()["shares"].items()))
 report.save("chapter_5")"""
 CONFIG = """title: A small book
@@ -46,7 +46,7 @@ INDEX = "# A small book\n\n```{include} chapters/contents.md\n```\n"
 def make_tree(tree):
     """Write the sources of the book into a folder."""
     (tree / "book").mkdir(parents=True)
-    for room in ("shared", "thesis"):
+    for room in ("page", "thesis"):
         shutil.copytree(ROOT / "notebooks" / "companion" / room, tree / "notebooks" / "companion" / room)
     shutil.copy(ROOT / "notebooks" / "companion" / "__init__.py", tree / "notebooks" / "companion")
     shutil.copy(ROOT / "Makefile", tree)

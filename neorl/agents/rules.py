@@ -134,7 +134,7 @@ CALIBRATED = Learning(
     learning_rate=0.01242, discount=0.9931, credit="share", activity=0.4982, absent_decay=0.07674,
     absent_form="decay", terminal=False, memory=35.28, bootstrap=False)
 # What the text prints, and the simplest or the middle of the prior where it leaves more, see
-# `notebooks/companion/shared/priors.py`.
+# `notebooks/companion/thesis/priors.py`.
 TO_THE_LETTER = Learning(
     learning_rate=0.012247448713915891, discount=0.9805065484119142, credit="activity", activity=0.5,
     absent_decay=0.03162277660168379, absent_form="away", terminal=False, memory=0.0, bootstrap=True)

@@ -8,11 +8,11 @@
 
 import numpy as np
 
-from companion.shared.parameters import FINEST
-from companion.shared.style import FILL, mark
-from companion.shared.wording import table
-from companion.shared.thesis_figures import mark_levels
-from neorl.core.horde import as_vectors
+from companion.page.parameters import FINEST
+from companion.page.style import FILL, mark
+from companion.page.wording import table
+from companion.page.thesis_figures import mark_levels
+from neorl.core.horde import as_vectors, superpose
 from neorl.core.maps import NresMap
 from neorl.core.scene import CARDINAL
 from neorl.drawing.curves import draw_sums
@@ -25,6 +25,11 @@ from companion.thesis.verdict import FINAL
 from neorl.experiments.run import Run
 
 N_CREEPS = 8  # of the paper
+
+
+def superposed_field(q, goals, valences):
+    """The superposed value of each action in every cell of a map (eq. 4.3 and 4.4): float64 (cells, 4)."""
+    return np.array([superpose(q, cell, goals, valences) for cell in range(len(q))])
 
 
 def all_of(layers):

@@ -6,8 +6,8 @@ Results are {name: `Result`}, of networks "A" to "D" and of "Brownian" motion on
 import numpy as np
 from matplotlib import pyplot as plt
 
-from companion.shared.wording import table
-from companion.shared.thesis_figures import mark_levels
+from companion.page.wording import table
+from companion.page.thesis_figures import mark_levels
 from neorl.drawing.boards import MARGIN, desire_colour
 from neorl.drawing.curves import draw_proficiency
 from neorl.drawing.network_figures import HEAD, LARGEST, draw_into, laid_out, write

@@ -84,7 +84,7 @@ counter"""
 
 @pytest.mark.filterwarnings("ignore")
 def test_what_a_notebook_has_found_is_beside_its_page_and_in_the_table_of_all_claims(notebook, monkeypatch):
-    change_last_cell(notebook, "from companion.shared import report\nreport.save('page', shares={'A2': "
+    change_last_cell(notebook, "from companion.page import report\nreport.save('page', shares={'A2': "
                                "{'agrees': 1, 'measured': 4}})")
     compute.compute(notebook, {"runs": 3})
     monkeypatch.setattr(record, "RECORD", notebook.parent / "record.json")  # there is none

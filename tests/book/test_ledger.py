@@ -1,5 +1,6 @@
 """The headline is the same everywhere, the page of claims has every claim once, and every rule has its history."""
 
+import json
 import re
 import tomllib
 from dataclasses import replace
@@ -7,11 +8,14 @@ from dataclasses import replace
 import answer
 import curves
 import ledger
+import levels
+import numpy as np
 import pytest
 import readme
 import rules
-from companion.shared import report
-from companion.shared.priors import WITHIN
+from record import RECORD as RECORDED
+from companion.page import report
+from companion.thesis.priors import WITHIN
 from companion.study import sensitivity
 from companion.study.calibration_targets import CLAIMS as FITTED
 
@@ -160,3 +164,13 @@ def test_no_rule_and_no_bound_changes_without_an_entry(monkeypatch):
     before = rules.digest("judge_networks")
     monkeypatch.setitem(STATEMENTS, "C4", replace(STATEMENTS["C4"], bounds=Bounds(low=1.4)))
     assert rules.digest("judge_networks") != before
+
+
+def test_levels_of_both_readings_stand_on_one_axis():
+    record = json.loads(RECORDED.read_text())
+    shown = levels.section(record)
+    widths = [float(width) for width in re.findall(r"width:([\d.]+)%", shown)]
+    earned = [float(level) for level in re.findall(r"<span>([\d.]+) \[", shown)]
+    assert len(widths) == len(earned) == 2 * len(levels.ROWS) and max(widths) == 100
+    np.testing.assert_allclose(widths, 100 * np.array(earned) / max(earned), atol=1.5)
+    assert levels.section(RECORD) == ""

@@ -12,7 +12,8 @@ from page_cells import HIDDEN
 from page_cells import NOTEBOOKS as FOLDER
 from programs import figure_of
 
-from companion.shared import notebook
+from companion import page as toolkit
+from companion.page import beginning
 from companion.thesis.statements import STATEMENTS
 
 NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted(FOLDER.glob("*.ipynb"))}
@@ -29,7 +30,7 @@ def test_a_page_shows_its_experiment_in_one_cell(cells):
     assert not HIDDEN & tags(experiment) and 8 <= len(experiment.source.splitlines()) <= 20
     assert re.search(r"\b(sweep|simulate|Learner|Run)\(", experiment.source)
     drawn = [cells.index(cell) for cell in cells if figure_of(cell)]
-    boxes = [cells.index(cell) for cell in cells if "opening.found(" in cell.source]
+    boxes = [cells.index(cell) for cell in cells if "page.found(" in cell.source]
     assert max([cells.index(experiment), *boxes]) < min(drawn), "the box and the experiment come before figures"
     assert any("## Variations to try\n" in cell.source for cell in cells)
 
@@ -107,9 +108,9 @@ RIGHT_ON = {("paper_c", "resolutions"): [[], [1]], **{(page, "resolutions"): [[1
 @pytest.mark.parametrize("page", NOTEBOOKS)
 def test_a_page_refuses_bad_parameters_before_it_runs(page):
     given, begun = (ast.parse(cell.source) for cell in NOTEBOOKS[page].cells[:8] if re.search(
-        r"^runs: int|notebook\.begin\(", cell.source, re.MULTILINE))
+        r"^runs: int|page\.begin\(", cell.source, re.MULTILINE))
     begun.body = [part for part in begun.body if not isinstance(part, ast.Import | ast.ImportFrom)]
-    names = {"notebook": notebook}
+    names = {"page": toolkit}
     exec(compile(given, page, "exec"), names)
     exec(compile(begun, page, "exec"), names)
     for name in [statement.target.id for statement in given.body]:
@@ -123,14 +124,14 @@ def test_a_page_refuses_bad_parameters_before_it_runs(page):
 
 def test_too_short_a_run_is_refused_where_there_would_be_nothing_to_draw():
     with pytest.raises(ValueError, match="steps must be an integer of at least 1000, but is 999"):
-        notebook.begin({"steps": 1_000}, runs=20, steps=999, seed=0)
+        beginning.begin({"steps": 1_000}, runs=20, steps=999, seed=0)
 
 
 @pytest.mark.parametrize("given, wanted", [
     ([11, 5], (5, 11)), ("[11, 5]", (5, 11)), ("5, 11", (5, 11)), ("[]", ())])
 def test_a_list_may_be_a_text_and_is_sorted(given, wanted):
-    notebook.begin({"resolutions": 0}, resolutions=given)
-    assert notebook.listed(given) == wanted
+    beginning.begin({"resolutions": 0}, resolutions=given)
+    assert beginning.listed(given) == wanted
 
 
 @pytest.mark.parametrize("given, message", [
@@ -140,7 +141,7 @@ def test_a_list_may_be_a_text_and_is_sorted(given, wanted):
     (7, "layers must be a list of numbers, but is 7")])
 def test_other_lists_are_refused(given, message):
     with pytest.raises(ValueError, match=message):
-        notebook.begin(layers=given)
+        beginning.begin(layers=given)
 
 
 @pytest.mark.parametrize("injected, refused", [("runz = 3", "runz"), ("PAPERMILL_OUTPUT_PATH = 'out.ipynb'", None)])
@@ -148,9 +149,9 @@ def test_a_parameter_that_a_notebook_does_not_have_is_refused_unless_it_is_paper
     class Shell:
         user_ns = {"In": ["", "runs: int = 20", f"# Parameters\nruns = 4\n{injected}\n"]}
 
-    monkeypatch.setattr(notebook, "get_ipython", Shell)
+    monkeypatch.setattr(beginning, "get_ipython", Shell)
     with pytest.raises(ValueError, match="a parameter must be one of runs, but is runz") if refused else nullcontext():
-        notebook.begin(runs=4)
+        beginning.begin(runs=4)
 
 
 def test_a_notebook_begins_with_typed_parameters_and_hidden_imports(cells):
@@ -161,7 +162,7 @@ def test_a_notebook_begins_with_typed_parameters_and_hidden_imports(cells):
     assert {"runs", "steps", "seed"} <= {statement.target.id for statement in statements}
     assert re.match(r"# .*\b(seconds|minutes?)\b", parameters.source)
     assert HIDDEN & tags(imports)
-    *imported, begun = [part for part in ast.parse(imports.source).body if "notebook.listed" not in ast.unparse(part)]
+    *imported, begun = [part for part in ast.parse(imports.source).body if "page.listed" not in ast.unparse(part)]
     assert all(isinstance(part, ast.Import | ast.ImportFrom) for part in imported)
-    checked = re.fullmatch(r"notebook\.begin\((?:{.*}, )?(.*)\)", ast.unparse(begun))[1]
+    checked = re.fullmatch(r"page\.begin\((?:{.*}, )?(.*)\)", ast.unparse(begun))[1]
     assert {*checked.split(", ")} == {f"{name}={name}" for name in (part.target.id for part in statements)}

@@ -59,15 +59,15 @@ def test_every_figure_has_a_program_that_compiles(page):
 
 
 def test_a_program_has_what_the_figure_depends_on_and_nothing_else():
-    sources = ["import numpy as np, sys\nfrom companion import notebook\nnotebook.begin(runs)",
+    sources = ["import numpy as np, sys\nfrom companion import page\npage.begin(runs)",
                "# Two seconds.\nruns: int = 2", "few = [runs]\nmany = 3  # not needed\n# needed\nfew.append(1)",
                "draw(many)", "def total(x):\n    return np.sum(x + few)", "drawn = many", "drawn = total(1)",
                "draw(drawn)"]
     made = [nbformat.v4.new_code_cell(each) for each in sources]
     made[-1].metadata["mystnb"] = {"figure": {"name": "fig-a"}}
     assert programs.program(made, "fig-a") == """import numpy as np
-from companion import notebook
-notebook.begin(runs)
+from companion import page
+page.begin(runs)
 runs: int = 2
 
 few = [runs]

@@ -7,8 +7,8 @@ import pytest
 import record
 from hypothesis import given
 from hypothesis import strategies as st
-from companion.shared import report
-from companion.shared.marks import DECIDED
+from companion.page import report
+from companion.page.marks import DECIDED
 
 from companion.thesis.statements import AGENTS, STATEMENTS
 from neorl.statistics import Estimate
@@ -101,9 +101,9 @@ def test_a_record_is_stable_and_its_sample_notices_other_bits(made, monkeypatch)
     text = made()
     found = json.loads(text)
     assert made() == text and found["commit"] == "abc1234" and found["claims"] == FINDINGS["claims"]
-    assert record.moved(found) == [] and set(found["sample"]) == {report.LETTER, report.CALIBRATED}
+    assert record.moved(found) == [] and {*found["sample"]} == {"to the letter", "calibrated"}
     monkeypatch.setattr(record, "SEED", 1)
-    assert record.moved(found) == [f"{reading}, {key}" for reading in (report.CALIBRATED, report.LETTER)
+    assert record.moved(found) == [f"{reading}, {key}" for reading in ("calibrated", "to the letter")
                                    for key in ("single 10", "layers")]
 
 

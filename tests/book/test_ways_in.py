@@ -15,7 +15,7 @@ import nbformat
 import pytest
 from jupyter_client.manager import start_new_kernel
 from jupyter_server.services.contents.largefilemanager import AsyncLargeFileManager
-from companion.shared import saving
+from companion.page import saving
 from nbformat.v4 import new_code_cell, new_notebook, new_output
 from traitlets.config import Config
 
@@ -44,7 +44,7 @@ def test_the_cache_is_that_of_the_clone_unless_it_is_named(named, folder, tmp_pa
 
 @pytest.mark.parametrize("options", [["--cwd", "notebooks"], []], ids=["in the pages' folder", "from the clone"])
 def test_papermill_finds_the_pages_and_the_cache_of_the_clone_and_records_no_progress(options, tmp_path):
-    cells = [new_code_cell("from companion.shared import report"), new_code_cell(SIMULATE),
+    cells = [new_code_cell("from companion.page import report"), new_code_cell(SIMULATE),
              new_code_cell("from neorl.files import cache_folder\nprint(cache_folder())")]
     metadata = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
     nbformat.write(new_notebook(cells=cells, metadata=metadata), tmp_path / "page.ipynb")

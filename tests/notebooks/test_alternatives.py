@@ -4,23 +4,22 @@ from itertools import product
 
 import numpy as np
 import pytest
-from page_cells import planned, source
+from page_cells import executed
 
-from companion.alternatives import controllers, living, search, tabular_learners
+from companion.alternatives import contestants, controllers, living, search, tabular_learners
 from companion.alternatives.contestants import of_thesis
 from companion.alternatives.living import BOARDS, Earned
-from companion.shared import notebook
-from neorl import Result, Run, WaterWorld, brownian, forager, place_cells, simulate
+from companion.page import beginning
+from neorl import Run, WaterWorld, brownian, forager, place_cells, simulate
 from neorl.core.calls import execute
 from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
-from companion.thesis.reading import TO_THE_LETTER, Reading
 from neorl.worlds.waterworld import GREEN, RED
 
 SETTINGS = search.best_settings()
 GAINS = SETTINGS["PD"]
 AGENTS = {"Brownian motion": brownian(), "forager": forager(),
-          **of_thesis({"to the letter": TO_THE_LETTER, "calibrated": Reading()})}
+          **of_thesis()}
 LONG = [row for row in living.read() if row.steps == 600_000]
 
 
@@ -170,40 +169,27 @@ def test_rates_lie_between_steps_and_levels_are_reached_by_means():
     assert np.isinf(each.steps_to(2.5)).all()
 
 
-def without_reward(conditions):
-    return (Result(each, np.zeros((each.runs, bins := each.steps // 10), np.float32),
-                   np.zeros((each.runs, bins, 2), np.int16)) for each in conditions)
+@pytest.mark.parametrize("page, judged", [
+    ({}, {"C5": False, "A10": False}), ({"n_creeps": 5}, {"C5": False})])
+def test_claims_are_judged_only_of_the_page_s_own_boards(page, judged):
+    assert {claim.name: claim.full_length for claim in executed("alternatives", **page).judged} == judged
 
 
-def others(settings, board, steps, runs, seed):
-    """What contestants earn that earn nothing."""
-    return {name: Earned(np.zeros((runs, living.bins_of(steps))), steps, 1e-6, 1.0, living.identity(
-        make(settings[name]), board)) for name, make in tabular_learners.TABULAR.items()}
+def test_claims_are_judged_only_of_the_page_s_own_contestants(monkeypatch):
+    page = executed("alternatives")
+    results = {creeps: dict(of_board) for creeps, of_board in page.results.items()}
+    results[3]["network D, calibrated"] = results[3]["forager"]
+    assert [claim.name for claim in contestants.judge(results, page.boards)] == ["A10"]
+    monkeypatch.setattr(contestants, "best_settings", lambda: SETTINGS | {"monolithic": SETTINGS["joint cells"]})
+    assert [claim.name for claim in contestants.judge(page.results, page.boards)] == ["A10"]
 
 
-def experiment(**given):
-    def of_result(result):
-        return Earned(np.zeros((result.runs, living.bins_of(result.steps))), result.steps, 1e-6, 1.0)
-
-    return planned("alternatives", "tables", "experiment", "judging", **{
-        "runs": 2, "steps": 150_000, "sweep": without_reward, "of_result": of_result, "of_others": others, **given})
-
-
-@pytest.mark.parametrize("given, verdicts", [
-    ({}, {"C5": True, "A10": True}), ({"n_creeps": 5}, {"C5": True}), ({"steps": 149_999}, {"C5": False, "A10": False}),
-    ({"N_CREEPS": 4}, {"A10": True}), ({"TO_THE_LETTER": Reading(place_gain=1.0)}, {"A10": True}),
-    ({"best_settings": lambda: SETTINGS | {"monolithic": SETTINGS["joint cells"]}}, {"A10": True})])
-def test_claims_are_judged_only_of_the_page_s_own_contestants_and_boards(given, verdicts):
-    assert {claim.name: claim.full_length for claim in experiment(**given)["judged"]} == verdicts
-
-
-@pytest.mark.parametrize("steps, minutes", [(3_000, 1), (8_999, 2), (150_000, 50), (600_000, 200)])
-def test_a_run_and_the_stored_ones_last_the_same_whole_minutes(steps, minutes, tmp_path):
-    names = experiment(steps=steps, keep=str(tmp_path / "kept.csv"))
-    assert {each.steps for of_board in names["boards"].values() for each in of_board.values()} == {minutes * 3_000}
-    exec(source("alternatives", "kept"), names)
+def test_a_run_and_the_stored_ones_last_the_same_whole_minutes(tmp_path):
+    page = executed("alternatives", steps=8_999, keep=str(tmp_path / "kept.csv"))
+    steps = {name: each.steps for of_board in page.boards.values() for name, each in of_board.items()}
+    assert {*steps.values()} == {200, 6_000} and [name for name in steps if steps[name] == 200] == ["planner"]
     kept = living.read(tmp_path / "kept.csv")
-    assert len(kept) == 2 * 2 * (6 + 4) and {len(row.rewards) for row in kept} == {minutes}
+    assert {len(row.rewards) for row in kept} == {2} and len(kept) == 2 * 2 * (6 + 4)
 
 
 def test_the_reward_of_a_minute_is_the_sum_of_its_parts():
@@ -215,4 +201,4 @@ def test_the_reward_of_a_minute_is_the_sum_of_its_parts():
 @pytest.mark.parametrize("keep", ["none/kept.csv", "."])
 def test_a_file_to_keep_is_checked_before_anything_runs(keep):
     with pytest.raises(ValueError, match=f"keep must be a file in a folder that exists, but is '{keep}'"):
-        notebook.begin(keep=keep)
+        beginning.begin(keep=keep)

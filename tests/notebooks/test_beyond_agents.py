@@ -1,10 +1,8 @@
 """The page on the forager: what its cells build and run, the planners that lack knowledge, the records of searches."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
-from page_cells import planned
+from page_cells import executed
 
 from companion.alternatives.controllers import act_planner, planner
 from companion.alternatives.search import best_settings
@@ -12,38 +10,35 @@ from companion.beyond_agents import figures, search
 from neorl import (NresMap, Run, WaterWorld, execute, forager, kernel, multimodal, simulate)
 from neorl.core.choices import Action
 
-def page(*cells, **given):
-    """What cells of the page define, with short runs unless given otherwise."""
-    return SimpleNamespace(**planned("beyond_agents", *cells, until=['results["forager"]'], **{
-        "runs": 2, "steps": 2_000, "seed": 5, "tank": WaterWorld(), **given}))
+@pytest.fixture(scope="module")
+def page():
+    return executed("beyond_agents", steps=20_000, seed=5, n_creeps=4)
 
 
-def test_all_parts_make_the_forager_and_none_the_bare_agent():
-    cells = page("agent-with")
-    assert cells.agent_with(cells.PARTS) == forager() and len(cells.PARTS) == 8
-    bare = cells.agent_with(())
+def test_all_parts_make_the_forager_and_none_the_bare_agent(page):
+    assert page.agent_with(page.PARTS) == forager() and len(page.PARTS) == 8
+    bare = page.agent_with(())
     assert (bare.contacts.fear, bare.contacts.rivals) == ("approach", "add")
     assert bare.contacts.first_value == bare.contacts.trace_rate == 0 and len(bare.nodes[0].modality.axes) == 2
 
 
-def test_receptive_fields_are_as_large_without_mirror_images():
-    cells = page("agent-with")
+def test_receptive_fields_are_as_large_without_mirror_images(page):
     widths, point = [], np.array([0.3, 0.2, 0.1, -0.4])
-    for parts in (cells.PARTS[:-1], [each for each in cells.PARTS[:-1] if each != "mirror images"]):
-        (node,) = cells.agent_with(parts).nodes
+    for parts in (page.PARTS[:-1], [each for each in page.PARTS[:-1] if each != "mirror images"]):
+        (node,) = page.agent_with(parts).nodes
         at = np.linspace(0, 1, 2_001)
         passed = np.column_stack([at, *(np.full(at.shape, each) for each in point[1:])])
         widths.append(len(set(NresMap(node.resolutions[0], node.modality).encode(passed).tolist())))
     assert abs(widths[0] - widths[1]) <= 1
 
 
-def test_each_condition_has_another_agent_and_long_runs_are_four_times_as_long():
-    made = page("agent-with", "6395b8c6", n_creeps=4).made
+def test_each_condition_has_another_agent_and_long_runs_are_four_times_as_long(page):
+    made = page.made
     assert len({repr(each.agent) for each in made.values()}) == 18  # two ways lead to all parts but the last
     assert [made[f"{n} creeps"].world.n_creeps for n in (3, 8)] == [3, 8]
     assert {each.world.n_creeps for name, each in made.items() if "creeps" not in name} == {4}
-    assert {each.steps for each in made.values()} == {2_000, 8_000}
-    assert made["revalued"].changes == ((1_000, forager((5, 9, 15, 25), 1.0, 1.0)),)
+    assert {each.steps for each in made.values()} == {20_000, 80_000}
+    assert made["revalued"].changes == ((10_000, forager((5, 9, 15, 25), 1.0, 1.0)),)
 
 
 def test_hits_per_second_count_all_hits():
@@ -53,10 +48,9 @@ def test_hits_per_second_count_all_hits():
     assert np.allclose(minutes, (np.arange(4) + 0.5) * result.seconds / 240)
 
 
-def test_fear_stays_low_where_there_is_a_way_out():
-    cells = page("ac555cce", steps=20_000, seed=3)
-    known = np.isfinite(cells.fears).all(axis=0)
-    middles, mean = cells.edges[:-1][known] + 0.025, cells.fears[:, known].mean(axis=0)
+def test_fear_stays_low_where_there_is_a_way_out(page):
+    known = np.isfinite(page.fears).all(axis=0)
+    middles, mean = page.edges[:-1][known] + 0.025, page.fears[:, known].mean(axis=0)
     assert mean[middles < 0.6].max() < 0.1 < mean.max()
 
 
@@ -80,23 +74,23 @@ def test_a_plan_of_one_capture_does_not_look_beyond():
     assert chosen[1] != Action.E == chosen[2]
 
 
-def test_gains_move_to_where_reward_is(monkeypatch):
+def test_gains_move_to_where_reward_is(page, monkeypatch):
     """Where the reward is the gain itself, the parameter rises; with a rate of 0 it stays."""
     monkeypatch.setattr(Run, "advance", lambda run, steps: run.agent.nodes[0].gain * steps / run.world.fps)
-    cells = page("adapting-rule", steps=40_000)
+    monkeypatch.setitem(page.adapt.__globals__, "steps", 40_000)
     gain = lambda octaves: multimodal(place_gain=octaves + 10)  # noqa: E731
-    path, rewards = cells.adapt(gain, (0.0,), 0.5, 0.5, 0)
+    path, rewards = page.adapt(gain, (0.0,), 0.5, 0.5, 0)
     assert path.shape == (21, 1) and rewards.shape == (40,)
-    assert path[-1, 0] == cells.HIGHEST and np.all(np.diff(path[:, 0]) >= 0)
-    path, shaken = cells.adapt(gain, (0.0,), 0.5, 0.0, 0)
+    assert path[-1, 0] == page.HIGHEST and np.all(np.diff(path[:, 0]) >= 0)
+    path, shaken = page.adapt(gain, (0.0,), 0.5, 0.0, 0)
     assert not path.any() and {*shaken} == {9.5, 10.5}
 
 
-def test_the_network_of_the_page_is_the_best_of_its_record():
+def test_the_network_of_the_page_is_the_best_of_its_record(page):
     record = search.tried_networks()
     assert len(record) == search.SETTINGS * len(search.LAYERS)
     best = next(row for row in record if row["layers"] == 2)
-    network = page("control-network").control_network(2, search.best_setting(2))
+    network = page.control_network(2, search.best_setting(2))
     assert search.earned_by(network) == pytest.approx(best["earned"], abs=2e-3)
 
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from companion.shared import pins
-from companion.shared.priors import WITHIN
+from companion.thesis import pins
+from companion.thesis.priors import WITHIN
 from companion.study import calibration, calibration_results, calibration_table, calibration_targets, sensitivity
 from companion.study.calibration import design, features
 from companion.study.calibration_table import Row, read_table, write_table

@@ -2,13 +2,8 @@
 
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
-from page_cells import defined
-from scipy.integrate import solve_ivp
-from scipy.signal import lfilter
-from scipy.special import exprel
+from page_cells import executed
 
-from companion.chapter_2 import figures, tuning
 from companion.chapter_2.tuning import (Trajectory, TuningCurve, egocentric, in_field, information,
                                         information_in_spikes, lose_track, roam, spikes, tuning_curve)
 from neorl import NresMap
@@ -23,21 +18,8 @@ def trajectory():
 
 
 @pytest.fixture(scope="module")
-def axon():
-    page = defined("chapter_2", "cell-32", np=np, exprel=exprel, solve_ivp=solve_ivp, figures=figures)
-    plt.close("all")
-    return page
-
-
-def cells_of(cell, **given):
-    page = defined("chapter_2", cell, np=np, seed=0, figures=figures, tuning=tuning, lfilter=lfilter, TAU=TAU, **given)
-    plt.close("all")
-    return page
-
-
-@pytest.fixture(scope="module")
-def neuron():
-    return cells_of("cell-37")
+def page():
+    return executed("chapter_2", steps=60_000)
 
 
 def standing(*places, velocity=(0.1, 0.0)):
@@ -144,9 +126,7 @@ def test_forward_is_where_one_heads_and_starboard_a_quarter_turn_to_the_right():
     np.testing.assert_allclose(egocentric([1.0, 1.0], [np.pi / 4, np.pi]), [[np.sqrt(2), 0], [-1, -1]], atol=1e-15)
 
 
-def test_a_grid_cell_fires_most_at_the_nodes_of_a_hexagonal_lattice(trajectory):
-    page = cells_of("cell-56-maps", walk=trajectory,
-                    where={"step": 0.02, "high": 1.0, "bins": 25})
+def test_a_grid_cell_fires_most_at_the_nodes_of_a_hexagonal_lattice(page):
     angles = np.radians(60 * np.arange(6))
     nodes = 0.3 * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     np.testing.assert_allclose(page.grid_rate(np.vstack([(0, 0), nodes, 2 * nodes]), 0.3), 1.0, atol=1e-12)
@@ -157,9 +137,8 @@ def test_a_grid_cell_fires_most_at_the_nodes_of_a_hexagonal_lattice(trajectory):
     assert np.abs(high - np.round(high)).max() < 0.1
 
 
-def test_an_object_cell_has_a_compact_field_in_its_own_frame_alone(trajectory):
-    maps = cells_of("cell-56-frames", walk=trajectory,
-                    where={"step": 0.02, "high": 1.0, "bins": 25}).object_maps
+def test_an_object_cell_has_a_compact_field_in_its_own_frame_alone(page):
+    maps = page.object_maps
     for cell, frames in maps.items():
         share = {frame: np.mean(rate > np.nanmax(rate) / 3) for frame, rate in frames.items()}
         own, other = sorted(share, key=share.get)
@@ -178,21 +157,21 @@ def test_the_error_of_a_sum_grows_with_the_root_of_time_and_that_corrected_stays
     assert np.all(alone == 0) and 0 < corrected.max() <= np.hypot(0.05, 0.05)  # half its reach along each axis
 
 
-def test_the_gates_move_as_in_the_paper(axon):
+def test_the_gates_move_as_in_the_paper(page):
     """Values at a depolarisation of 25 and 10 mV, where the formulas are 0/0, and of 30 mV."""
-    opening, closing = axon.gate_rates(axon.REST + 25)
+    opening, closing = page.gate_rates(page.REST + 25)
     assert (opening[0], closing[0]) == pytest.approx((1.0, 4 * np.exp(-25 / 18)))
-    opening, closing = axon.gate_rates(axon.REST + 10)
+    opening, closing = page.gate_rates(page.REST + 10)
     assert (opening[2], closing[2]) == pytest.approx((0.1, 0.125 * np.exp(-1 / 8)))
-    opening, closing = axon.gate_rates(axon.REST + 30)
+    opening, closing = page.gate_rates(page.REST + 30)
     assert (opening[1], closing[1]) == pytest.approx((0.07 * np.exp(-1.5), 0.5))
 
 
-def test_an_action_potential_is_all_or_none_and_obeys_its_own_equation(axon):
-    peaks = {current: axon.action_potential(current)[1].max() for current in (0.0, 6.9, 6.95, 16.0)}
-    assert peaks[0.0] == pytest.approx(axon.REST, abs=0.02) and peaks[6.9] < -55.0
+def test_an_action_potential_is_all_or_none_and_obeys_its_own_equation(page):
+    peaks = {current: page.action_potential(current)[1].max() for current in (0.0, 6.9, 6.95, 16.0)}
+    assert peaks[0.0] == pytest.approx(page.REST, abs=0.02) and peaks[6.9] < -55.0
     assert 30.0 < peaks[6.95] < peaks[16.0] < 45.0
-    time, potential, m, h, n = axon.action_potential(10.0)
+    time, potential, m, h, n = page.action_potential(10.0)
     flow = 120 * m**3 * h * (potential - 50) + 36 * n**4 * (potential + 77) + 0.3 * (potential + 54.387)
     inside = (time > 5.05) & (time < 5.95)
     change = np.gradient(potential, time)  # by finite differences
@@ -200,8 +179,8 @@ def test_an_action_potential_is_all_or_none_and_obeys_its_own_equation(axon):
     np.testing.assert_allclose(change[time > 6.05], -flow[time > 6.05], atol=1.0)
 
 
-def test_the_soma_fires_as_often_as_the_closed_form_says_and_rests_after_a_spike(neuron):
-    integrate = neuron.integrate
+def test_the_soma_fires_as_often_as_the_closed_form_says_and_rests_after_a_spike(page):
+    integrate = page.integrate
     currents = np.array([1.0, 1.4, 2.5, 3.5, 4.0])
     _, fired = integrate(np.tile(currents, (40_000, 1)), step=0.05)
     drive = 10 * currents[2:]
@@ -214,16 +193,16 @@ def test_the_soma_fires_as_often_as_the_closed_form_says_and_rests_after_a_spike
     np.testing.assert_allclose(potential, -65.0 + 12.0 * (1 - np.exp(-time / 10.0)), rtol=1e-12)
 
 
-def test_a_synapse_sets_off_a_current_for_each_spike(neuron):
+def test_a_synapse_sets_off_a_current_for_each_spike(page):
     spikes = np.zeros(1_000, bool)
     spikes[[100, 400]] = True
-    current = neuron.synaptic_current(spikes, weight=-0.5, decay=4.0, step=0.2)
+    current = page.synaptic_current(spikes, weight=-0.5, decay=4.0, step=0.2)
     assert current[99] == 0.0 and current[100] == -0.5 and current[120] == pytest.approx(-0.5 / np.e)
     assert current[400] == pytest.approx(-0.5 * (1 + np.exp(-15.0))) and current[-1] == pytest.approx(0, abs=1e-10)
 
 
-def test_a_shock_is_forgotten_and_five_apart_are_not(neuron):
-    efficacy = neuron.efficacy
+def test_a_shock_is_forgotten_and_five_apart_are_not(page):
+    efficacy = page.efficacy
     np.testing.assert_allclose(efficacy(np.array([-1, 0, 15, 60]), [0]), 1 + np.array([0, 1, np.exp(-1), np.exp(-4)]))
     share = np.exp(-1.0)  # of a trace, a quarter of an hour later
     assert efficacy(24 * 60.0, [0.0]) == pytest.approx(1.0)

@@ -6,19 +6,17 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from page_cells import code, planned, source
+from page_cells import executed
 
 from companion.chapter_4 import drivers, noise, superposition
 from companion.chapter_4.credit import DEFAULT, INVERSION, Chamber, learn_in
 from companion.chapter_4.noise import expected_squared_displacement, mean_squared_displacement, walk
 from companion.chapter_4.superposition import fit_ridges, plan
 from companion.shared.grid import Grid
-from neorl import WaterWorld, multimodal, place_cells
 from neorl.agents.rules import CALIBRATED
 from neorl.core.calls import execute
 from neorl.core.stream import new_stream, randint, uniform
 from companion.thesis.reading import READINGS, conditions
-from companion.thesis.verdict import Claim
 
 FAR = (np.inf, 0, 0)
 SIDE = np.linspace(-1, 1, 31)
@@ -27,53 +25,29 @@ N5 = Grid((".....",) * 5)
 QUICK = replace(INVERSION, learning_rate=0.3)
 
 
-def run_cells(*names, **given):
-    """What some cells of the page define, with conditions in place of results: {name: value}."""
-    return planned("chapter_4", *names, **{"runs": 30, "steps": 600_000, "seed": 3, **given})
-
-
-@pytest.mark.parametrize("name, steps", [("letter", 1_000), ("calibrated", 600_000)])
-def test_agents_differ_in_their_temporal_driver_alone(name, steps):
-    page, reading = run_cells("agents", "experiment", steps=steps, reading=name), READINGS[name]
-    made = conditions(reading, steps, 30, 3, ["layers", "modal"])
+@pytest.mark.parametrize("name", READINGS)
+def test_agents_differ_in_their_temporal_driver_alone(name):
+    page, reading = executed("chapter_4", reading=name), READINGS[name]
+    made = conditions(reading, 1_000, 2, groups=["layers", "modal"])
     for which, (key, chance) in drivers.AGENTS.items():
-        results = page["results"][which]
-        assert results["changes of cell"] == made[key] and results["Brownian motion"] == made[chance]
-        for stay, each in drivers.at_every_step(results).items():
+        ran = {driver: result.condition for driver, result in page.results[which].items()}
+        assert ran["changes of cell"] == made[key]
+        assert (ran["Brownian motion"].agent, ran["Brownian motion"].world) == (made[chance].agent, made[chance].world)
+        for stay, condition in drivers.at_every_step(ran).items():
             rule = reading.varied(credit="step", discount=reading.learning.discount ** (1 / stay))
-            assert each == conditions(rule, steps, 10, 3, ["layers", "modal"])[key]
-            assert each.agent.learning.update_on == "step"
+            assert condition == conditions(rule, 1_000, 2, groups=["layers", "modal"])[key]
+            assert condition.agent.learning.update_on == "step"
+    assert [claim.name for claim in page.judged] == ["T7"] and not page.judged[0].full_length
 
 
-def test_stays_that_are_nearly_as_long_are_different_conditions():
-    results = run_cells("agents", "experiment", stays=[999, 1_000])["results"]["both"]
-    assert list(drivers.at_every_step(results)) == [999, 1_000]
-
-
-@pytest.mark.parametrize("line, other, judged", [
-    ("", "", True), ("stays: list = [1, 10, 50]", "stays = [1, 2, 10, 50]", True),
-    ("stays: list = [1, 10, 50]", "stays = [1, 10]", False), ("[3, 7, 23]", "[5]", False),
-    ("n_creeps=8 if", "n_creeps=5 if", False), ("object_vector_cells(**", "object_vector_cells([5], **", False)])
-def test_only_agents_and_stays_of_the_thesis_are_judged(line, other, judged):
-    text = {cell: each.replace(line, other) for cell, each in code("chapter_4").items()}
-    assert not line or text != code("chapter_4")
-    names = run_cells()
-    names["claims"] = SimpleNamespace(judge_persistence=lambda each: Claim(
-        "T7", [*each["both"][1]], {}, 10, "partly", False))
-    for cell in ("cell-01", "agents", "experiment", "judging"):
-        exec(text[cell], names)
-    expected = [[1, 10, 50]] * judged
-    assert [claim.here for claim in names["judged"]] == expected
-
-
-@pytest.mark.parametrize("steps, agent, full", [(150_000, multimodal(), True), (149_999, multimodal(), False),
-                                                (150_000, place_cells([3]), None)])
-def test_real_time_is_judged_of_the_agent_of_the_thesis_with_its_experience(steps, agent, full):
-    names = run_cells() | {"judged": [], "name_of_reading": "letter", "busy": None, "window": 0.7,
-                           "run": SimpleNamespace(agent=agent, world=WaterWorld(), step=2 * steps),
-                           "load": np.full(12, 0.01), "delay": np.zeros((12, 35))}
-    exec(source("chapter_4", "cell-46"), names)
-    assert [(claim.name, claim.full_length) for claim in names["t5"]] == ([("T5", full)] if full is not None else [])
+@pytest.mark.parametrize("parameters, changes, judged", [
+    ({"stays": (1, 2, 10, 50)}, (("run = neorl.Run(multimodal()", "run = neorl.Run(place_cells([3])"),), ["T7"]),
+    ({"stays": (999, 1_000)}, (("n_creeps=8 if", "n_creeps=5 if"),), ["T5"])])
+def test_only_agents_and_stays_of_the_thesis_are_judged(parameters, changes, judged, monkeypatch):
+    monkeypatch.setattr(drivers, "STEPS", 500)  # an agent's experience, and the length of runs, that give verdicts
+    page = executed("chapter_4", changes, **parameters)
+    assert [(claim.name, claim.full_length) for claim in [*page.t5, *page.judged]] == [(name, True) for name in judged]
+    assert list(drivers.at_every_step(page.results["both"])) == [*page.stays]
 
 
 class Clock:
@@ -94,27 +68,28 @@ class Clock:
     perf_counter = monotonic
 
 
-def keep_pace(seconds, runs):
-    """The page's run in real time: load and delay of a run whose k-th step takes `seconds[k]`, later ones the last."""
-    clock = Clock()
+@pytest.fixture
+def keep_pace(monkeypatch):
+    """Load and delay of a run in real time whose k-th step takes `seconds[k]`, and later ones as long as the last."""
+    def keep_pace(seconds, windows):
+        clock = Clock()
 
-    def advance(steps):
-        if steps == 1:
+        def advance(steps):
             worked = seconds[min(clock.step, len(seconds) - 1)]
             clock.now, clock.used, clock.step = clock.now + worked, clock.used + worked, clock.step + 1
 
-    page = run_cells(runs=runs) | {"time": clock, "run": SimpleNamespace(advance=advance),
-                                   "tank": SimpleNamespace(fps=50)}
-    exec(source("chapter_4", "cell-45-work"), page)
-    assert clock.step == page["delay"].size == 35 * min(runs, 12)
-    return page["load"], page["delay"]
+        in_real_time = executed("chapter_4", reading="letter").in_real_time
+        monkeypatch.setitem(in_real_time.__globals__, "time", clock)
+        return in_real_time(SimpleNamespace(advance=advance), windows, 35)
+
+    return keep_pace
 
 
-def test_a_slow_step_makes_those_after_it_late_until_they_have_caught_up():
-    load, delay = keep_pace([0.005, 0.05, 0.005], runs=1)
+def test_a_slow_step_makes_those_after_it_late_until_they_have_caught_up(keep_pace):
+    load, delay = keep_pace([0.005, 0.05, 0.005], windows=1)
     np.testing.assert_allclose(delay[0, :5], [0.25, 2.5, 1.75, 1.0, 0.25])
     np.testing.assert_allclose(load, (34 * 0.005 + 0.05) / 0.7)
-    load, delay = keep_pace([0.04], runs=2)
+    load, delay = keep_pace([0.04], windows=2)
     np.testing.assert_allclose(load, 1.0)
     np.testing.assert_allclose(np.diff(delay.ravel()), 1.0)
 

@@ -5,65 +5,45 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
-from page_cells import planned, source
+from page_cells import executed
 
 import neorl
 from companion.chapter_5 import conclusions, figures, trials
-from companion.shared import report
-from companion.shared.report import CLAIMS_OF
-from companion.thesis.reading import PRIMES, READINGS, Reading, conditions
+from companion.page.report import CLAIMS_OF
+from companion.thesis.reading import PRIMES, READINGS, conditions
 from companion.thesis.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl import WaterWorld
 
 
-def experiment(*cells, **given):
-    """What the page's cells define down to its experiment, with conditions in place of results: {name: value}."""
-    return planned("chapter_5", "experiment", *cells, until=["moved = "],
-                   **{"runs": 12, "steps": 900, "seed": 2} | given)
+@pytest.fixture(scope="module", params=READINGS)
+def page(request):
+    return executed("chapter_5", reading=request.param, runs=11)
 
 
-@pytest.mark.parametrize("reading", READINGS)
-def test_agents_have_the_coarsest_maps_of_paper_b_up_to_all(reading):
-    names = experiment(reading=reading)
-    paper_b = conditions(READINGS[reading], 900, 12, 2, ["modal"])
+def test_agents_have_the_coarsest_maps_of_paper_b_up_to_all(page):
+    paper_b = conditions(page.thesis, 1_000, 11, groups=["modal"])
     for name, key in (("place cells", ("place", "all")), ("object-vector cells", ("objects", "all")), ("both", "both")):
-        *fewer, full = names["growing"][name]
-        assert full == paper_b[key]
-        for n, each in zip((1, 2, 4), fewer, strict=True):
+        *fewer, full = (each.condition for each in page.growing[name])
+        assert full == paper_b[key] and len(fewer) == len(page.numbers) - 1
+        for n, each in zip(page.numbers, fewer):
             assert {node.resolutions for node in each.agent.nodes} == {PRIMES[:n]}
-            assert replace(each, agent=paper_b[key].agent) == paper_b[key]
+            assert replace(each, agent=full.agent) == full
 
 
-@pytest.mark.parametrize("begin, step", [(0.5, 450), (0.25, 225)])
-def test_indifferent_agents_have_the_same_desires_but_no_valence_until_these_begin(begin, step):
-    names = experiment("ran", begin=begin, counts=[2])
-    throughout, later = names["throughout"], names["later"]
-    assert (names["numbers"], names["begun"]) == ([2], begin)
-    assert throughout == conditions(Reading(), 900, 12, 2, ["modal"])["both"]
-    assert later.changes == ((step, throughout.agent),)
+def test_indifferent_agents_have_the_same_desires_but_no_valence_until_these_begin(page):
+    throughout, later = page.throughout.condition, page.later.condition
+    assert page.begun == 0.5 and later.changes == ((500, throughout.agent),)
+    assert throughout == conditions(page.thesis, 1_000, 11, groups=["modal"])["both"]
     assert [desire.source for desire in later.agent.desires] == [desire.source for desire in throughout.agent.desires]
     assert not any(desire.valence for desire in later.agent.desires) and later.agent.nodes == throughout.agent.nodes
 
 
-def test_agents_explore_after_the_change_and_not_before():
-    names = experiment("papers")
-    ((turn, plain),), ((same_turn, exploring),) = names["ran"]["revalued"].changes, names["exploring"].changes
-    assert turn == same_turn == 450 and exploring.policy == neorl.Policy(0.05, "random") != plain.policy
-    assert names["exploring"].agent == names["ran"]["revalued"].agent
-    assert {key: each.runs for key, each in names["ran"].items() if key[-1] == "all" or key in ("both", "wanting")} == {
-        ("place", "all"): 12, ("objects", "all"): 12, "both": 12, "wanting": 10}
-
-
-def empty_results(conditions):
-    return [neorl.Result(each, np.zeros((each.runs, bins := -(-each.steps // 10)), np.float32),
-                         np.zeros((each.runs, bins, 2), np.int16)) for each in conditions]
-
-
-@pytest.fixture(scope="module", params=READINGS)
-def computed(request):
-    """The names of the page after its experiments, in which nothing is earned."""
-    return planned("chapter_5", "experiment", "papers", "ran", reading=request.param, runs=2, steps=1_000,
-                   counts=[1], sweep=empty_results)
+def test_agents_explore_after_the_change_and_not_before(page):
+    ((turn, plain),), ((same_turn, exploring),) = page.ran["revalued"].changes, page.exploring.changes
+    assert turn == same_turn == 500 and exploring.policy == neorl.Policy(0.05, "random") != plain.policy
+    assert page.exploring.agent == page.ran["revalued"].agent
+    assert {key: each.runs for key, each in page.ran.items() if key[-1] == "all" or key in ("both", "wanting")} == {
+        ("place", "all"): 11, ("objects", "all"): 11, "both": 11, "wanting": 10}
 
 
 def other_agent(made):
@@ -74,16 +54,15 @@ def other_agent(made):
 
 @pytest.mark.parametrize("change, without", [
     (None, ""), ("moved", "T1"), ("costs", "T2"), ("revalued", "T1 T6"), (("layer", 7), "T6")])
-def test_a_claim_is_judged_only_if_what_was_run_for_it_is_the_papers(change, without, computed, cache_folder):
-    names = dict(computed)
-    if change in names["ran"]:
-        names["ran"] = names["ran"] | {change: other_agent(names["ran"][change])}
+def test_a_claim_is_judged_only_if_what_was_run_for_it_is_the_papers(change, without, page):
+    measured = {"ran": page.ran, "moved": page.moved, "costs": page.costs}
+    if change in page.ran:
+        measured["ran"] = page.ran | {change: other_agent(page.ran[change])}
     elif change:
-        names[change] = other_agent(names[change])
-    exec(source("chapter_5", "judging"), names)
-    found = [name for name in CLAIMS_OF["chapter_5"] if name not in without.split()]
-    assert [claim.name for claim in names["judged"]] == [*names["record"]["claims"]] == found
-    assert bool(report.load()[report.PART_OF[names["name_of_reading"]]]) == (change is None)
+        measured[change] = other_agent(measured[change])
+    found = [claim.name for claim in conclusions.judge(reading=page.thesis, **measured)]
+    assert found == [name for name in CLAIMS_OF["chapter_5"] if name not in without.split()]
+    assert change or found == [claim.name for claim in page.judged] == [*page.record["claims"]][-len(found):]
 
 
 def test_every_claim_belongs_to_one_group():

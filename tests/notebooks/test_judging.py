@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from companion.shared import judging
+from companion.page import judging
 from neorl import Condition, Result
 from companion.thesis.reading import TO_THE_LETTER, Reading
 
-PAPER_C = judging.papers(Reading(), "networks")
+PAPER_C = judging.papers_conditions(Reading(), "networks")
 
 
 def results(steps=300_000, runs=12, **others):
@@ -36,12 +36,12 @@ def with_another_node(condition):
      set()),
     (results()[:-1], Reading(), set())])
 def test_networks_are_judged_if_they_are_the_paper_s(ran, reading, verdicts):
-    claims = judging.of_papers(ran, reading, "networks")
+    claims = judging.judge_papers(ran, reading, "networks")
     assert {claim.verdict for claim in claims} == verdicts and len(claims) == (4 if verdicts else 0)
 
 
 def test_agents_that_change_at_the_same_share_of_a_run_are_the_same():
-    turned = judging.papers(Reading(), "revaluing")["revalued"]
+    turned = judging.papers_conditions(Reading(), "revaluing")["revalued"]
     short = judging.readings.conditions(Reading(), 3_001, 2, groups=("revaluing",))["revalued"]
     assert judging.same(short, turned) and not judging.same(replace(short, changes=()), turned)
     later = replace(short, changes=((2_000, short.changes[0][1]),))

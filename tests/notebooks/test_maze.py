@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from page_cells import planned
+from page_cells import executed
 
 from companion.chapter_2.maze import (DAYS, GROUPS, LEARNERS, Animal, Maze, Record, Rival, _learn_by_traces, findings,
                                       live, simulate)
@@ -162,14 +162,15 @@ def test_the_findings_of_the_original_are_not_found_in_results_that_lack_them():
     assert numbers == pytest.approx([0, 0, 0, 2, 0.1, 2.1, 7.1 / 6, 2.1], abs=0.01)
 
 
-@pytest.mark.parametrize("given, after, verdict", [
-    ({}, 2.5, "partly"), ({}, 1, "reproduced"), ({}, 12, "contradicted"), ({"exploration": 0.3}, 2, None),
-    ({"learning_rate": 0.2}, 2, None), ({"Maze": lambda: Maze("RLRL")}, 2, None), ({"DAYS": 12}, 2, None),
-    ({"Animal": lambda kind, **rates: Animal(kind, **rates, trace=0.5 if kind == "Sarsa(λ)" else 0.9)}, 2, None),
-])
-def test_the_page_judges_the_animals_of_the_book_alone(given, after, verdict):
-    levels = {1: flat(2), 13: flat(14), DAYS + 1: flat(14), 11: flat(14, after, after)}
-    page = planned("chapter_2", "experiment", "judging", **given,
-                   simulate=lambda animal, maze, day, *_: levels[day]._replace(ran=(animal, maze, day)))
-    assert [claim.verdict for claim in page["judged"]] == ([verdict] if verdict else [])
-    assert {animal.exploration for animal in page["animals"].values()} == {given.get("exploration", 0.1)}
+@pytest.mark.parametrize("after, verdict", [(2.5, "partly"), (1, "reproduced"), (12, "contradicted")])
+def test_the_demonstration_holds_as_far_as_its_animals_do(after, verdict):
+    by_kind = {kind: {"throughout": flat(2), "never": flat(14), "delayed": flat(14, after, after)} for kind in LEARNERS}
+    assert executed("chapter_2").judge(by_kind).verdict == verdict
+
+
+@pytest.mark.parametrize("page, judged", [
+    ({}, ["H1"]), ({"exploration": 0.3}, []), ({"learning_rate": 0.2}, []),
+    ({"changes": (("Maze()", 'Maze("RLRL")'),)}, [])])
+def test_the_page_judges_the_animals_of_the_book_alone(page, judged):
+    page = executed("chapter_2", **page)
+    assert [claim.name for claim in page.judged] == judged

@@ -7,12 +7,11 @@ import sys
 
 import numpy as np
 import pytest
-from page_cells import defined, planned, source
+from page_cells import code, executed
 
 from neorl import CARDINAL, execute
 from neorl.core.stream import new_stream
 
-RULES = defined("own_world", "cell-21")
 SHELL = """
 import json, sys
 from IPython.core.interactiveshell import InteractiveShell
@@ -69,7 +68,8 @@ def session(tmp_path, cache_folder):
 
 
 def test_what_cells_define_is_cached_and_saved_like_what_modules_define(session):
-    pond, rules = source("own_world", "cell-09"), source("own_world", "cell-21")
+    pond, rules = (next(cell for cell in code("own_world").values() if text in cell)
+                   for text in ("class Pond(World)", "def second_best("))
     longer = pond.replace("0.1, 0.04", "0.1, 0.06")
     assert longer != pond
     first, again, changed, back, here = session(pond, rules, SETUP, "look()", pond, rules, "look()", longer, "look()",
@@ -80,16 +80,19 @@ def test_what_cells_define_is_cached_and_saved_like_what_modules_define(session)
     assert later == again and there == here and here[2] == "Pond()"
 
 
-def test_finds_are_counted_in_shares_of_the_run_that_was_made():
-    """Whatever `steps` is by now."""
-    page = planned("own_world", "cell-07", until=["\nMarkdown("], steps=123)
-    found = np.zeros(1_000, bool)
-    found[[0, 60, 949, 950, 999]] = True
-    assert page["counts"]("pad", found).splitlines()[-1] == "| pad | 5 | 2 | 3 |"
+@pytest.fixture(scope="module")
+def page():
+    return executed("own_world")
 
 
-def test_the_pond_of_kernels_is_that_of_the_loop():
-    world = defined("own_world", "cell-09").Pond()
+def test_finds_are_counted_in_shares_of_the_run_that_was_made(page):
+    found = np.zeros(2_000, bool)
+    found[[0, 60, 1_850, 1_950, 1_999]] = True
+    assert page.counts("pad", found).splitlines()[-1] == "| pad | 5 | 2 | 3 |"
+
+
+def test_the_pond_of_kernels_is_that_of_the_loop(page):
+    world = page.Pond()
     state, rng, finds, pad = world.reset(0), np.random.default_rng(0), 0, np.array([0.8, 0.3])
     for _ in range(300):
         state.scene.position[:], action = rng.random(2), rng.integers(4)
@@ -101,22 +104,21 @@ def test_the_pond_of_kernels_is_that_of_the_loop():
     assert finds
 
 
-def test_credit_is_highest_for_the_last_event():
-    credit = RULES.recent_credit
+def test_credit_is_highest_for_the_last_event(page):
+    credit = page.recent_credit
     assert [execute(credit, *each, 0.0) for each in [(3, 9, True), (3, 9, False), (0, 9, False)]] == [1, 0.5, 0]
 
 
 @pytest.mark.parametrize("value, best, second", [([0.1, 0.4, 0.3, 0.2], 1, 2), ([0.9, 0.1, 0.2, 0.4], 0, 3)])
-def test_the_policy_takes_the_second_best_action_in_its_share_of_steps(value, best, second):
+def test_the_policy_takes_the_second_best_action_in_its_share_of_steps(page, value, best, second):
     stream, value = new_stream(np.random.SeedSequence(0)), np.array(value)
     for share, allowed in [(0.0, {best}), (1.0, {second}), (0.5, {best, second})]:
-        assert {int(execute(RULES.second_best(share), value, stream)) for _ in range(40)} == allowed
+        assert {int(execute(page.second_best(share), value, stream)) for _ in range(40)} == allowed
     equal = np.zeros(4)
-    assert {int(execute(RULES.second_best(0.0), equal, stream)) for _ in range(80)} == {0, 1, 2, 3}
+    assert {int(execute(page.second_best(0.0), equal, stream)) for _ in range(80)} == {0, 1, 2, 3}
 
 
-def test_the_turtle_goes_ahead_and_turns_by_an_eighth():
-    page = defined("own_world", "cell-15")
+def test_the_turtle_goes_ahead_and_turns_by_an_eighth(page):
     turtle = page.Turtle()
     observation, _ = turtle.reset(0)
     turtle.position, turtle.heading = np.array([0.5, 0.25]), 0

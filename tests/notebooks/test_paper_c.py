@@ -4,65 +4,32 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from page_cells import planned, source
+from page_cells import executed
 
 from companion import paper_c
-from neorl import Learning, Policy, Result, Run, WaterWorld, network_b
+from neorl import Learning, Policy, Run, WaterWorld, network_b
 from companion.thesis.reading import READINGS, Reading, conditions, networks
 from neorl.experiments.condition import Condition
 
 
-def experiment(*cells, **parameters):
-    """The names that the page's cells define down to its experiment, with an iterator of conditions for results."""
-    return planned("paper_c", "1e283f34", *cells, **parameters)
-
-
 @pytest.mark.parametrize("name", READINGS)
-@pytest.mark.parametrize("steps", [4_000, 300_000, 600_000])
-def test_the_page_runs_the_networks_of_a_reading(name, steps):
-    page = experiment(reading=name, runs=3, steps=steps, seed=2)
-    expected = conditions(READINGS[name], steps, 3, 2, groups=["networks"])
-    assert page["results"] | page["control"] == {key[1] if key[0] == "network" else "Brownian": each
-                                                 for key, each in expected.items()}
+def test_the_page_runs_and_judges_the_networks_of_a_reading(name):
+    page = executed("paper_c", reading=name)
+    expected = conditions(READINGS[name], 1_000, 2, groups=["networks"])
+    ran = {key: each.condition for key, each in (page.results | page.control).items()}
+    assert ran == {key[1] if key[0] == "network" else "Brownian": each for key, each in expected.items()}
+    assert [claim.name for claim in page.judged] == ["C1", "C2", "C3", "C4"]
+    assert not any(claim.full_length for claim in page.judged)
 
 
-def test_weights_and_creeps_and_maps_are_those_of_the_parameters():
-    page = experiment(recursion=-0.5, n_creeps=5, resolutions=(2, 7))
+def test_parameters_are_those_of_the_networks_and_their_variations_and_other_ones_are_not_judged():
+    page = executed("paper_c", recursion=-0.5, n_creeps=5, resolutions=(2, 7))
     agents = networks(Reading(recursion=-0.5, network_resolutions=(2, 7)))
-    assert {name: each.agent for name, each in page["results"].items()} == agents
-    assert {each.world for each in page["results"].values()} == {WaterWorld(n_creeps=5)}
-
-
-def without_reward(conditions):
-    """Made-up results of conditions."""
-    return (Result(each, np.zeros((each.runs, bins := each.steps // 10), np.float32),
-                   np.zeros((each.runs, bins, 2), np.int16)) for each in conditions)
-
-
-@pytest.mark.parametrize("parameters, judged", [
-    ({}, True), ({"recursion": -0.5}, False), ({"n_creeps": 4}, False), ({"resolutions": (3, 7)}, False),
-    ({"resolutions": (3, 7, 23)}, True), ({"network_a": network_b}, False)])
-def test_claims_are_judged_only_if_what_the_paper_ran_is_what_was_run(parameters, judged):
-    for name in READINGS:
-        claims = experiment("ran", "judging", reading=name, runs=2, steps=2_000, sweep=without_reward,
-                            **parameters)["judged"]
-        assert [claim.name for claim in claims] == (["C1", "C2", "C3", "C4"] if judged else [])
-
-
-def test_runs_as_long_as_the_paper_s_give_verdicts_and_shorter_ones_do_not():
-    for steps in (300_000, 299_990):
-        claims = experiment("ran", "judging", runs=2, steps=steps, sweep=without_reward)["judged"]
-        assert {claim.full_length for claim in claims} == {steps == 300_000}
-
-
-def test_the_variations_are_those_of_what_was_run_whatever_the_parameters_are_now():
-    names = experiment("ran", runs=3, steps=4_000, n_creeps=5, recursion=-0.5)
-    names |= {"n_creeps": 8, "steps": 9_000, "recursion": 2.0}
-    exec(source("paper_c", "variations"), names)
-    for name, variant in names["variants"].items():
-        assert {each.world.n_creeps for each in names["varied"][name].values()} == {5}
-        assert names["varied"][name]["D"].agent == networks(variant)["D"] and variant.recursion == -0.5
-        assert names["varied"][name]["D"].steps == 4_000
+    assert {name: each.agent for name, each in page.results.items()} == agents
+    assert {each.world for each in page.results.values()} == {WaterWorld(n_creeps=5)} and page.judged == []
+    for name, variant in page.variants.items():
+        assert {each.world.n_creeps for each in page.varied[name].values()} == {5}
+        assert page.varied[name]["D"].agent == networks(variant)["D"] and variant.recursion == -0.5
 
 
 def test_the_moment_is_the_first_seen_at_which_the_agent_is_well_inside_and_desires_something_far(monkeypatch):

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from companion.page import beginning
 from companion.performance import bound, rivals, timing
-from companion.shared import notebook
 from neorl import CALIBRATED, Run, WaterWorld, place_cells
 
 STEPS, WARM_UP = 1_000, 3_000
@@ -59,6 +59,6 @@ def test_exponents():
 
 
 def test_copies_of_the_largest_map_fit_into_memory():
-    notebook.begin(resolution=50)
+    beginning.begin(resolution=50)
     with pytest.raises(ValueError, match="resolution must be an integer from 1 to 50, but is 51"):
-        notebook.begin(resolution=51)
+        beginning.begin(resolution=51)

@@ -2,8 +2,8 @@
 
 import pytest
 
-from companion.shared import pins
-from companion.shared.priors import BEYOND, WITHIN
+from companion.thesis import pins
+from companion.thesis.priors import BEYOND, WITHIN
 from companion.thesis.reading import TO_THE_LETTER, Reading
 
 PINNED = [pin for pin in pins.PINS if pin.status == "pinned"]

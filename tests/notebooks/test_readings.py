@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from companion.shared.priors import BEYOND, PINNED, WITHIN, LogUniform
+from companion.thesis.priors import BEYOND, PINNED, WITHIN, LogUniform
 from companion.study.calibration import design
 import neorl
 from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_b, network_c, network_d,

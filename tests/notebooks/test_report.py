@@ -7,7 +7,7 @@ import pytest
 from matplotlib import pyplot as plt
 from test_claims import brownian, paper_a, paper_c
 
-from companion.shared import report
+from companion.page import report
 from companion.study.multiverse_figures import draw_standing
 from companion.thesis import claims
 from companion.thesis.statements import STATEMENTS, Bounds
@@ -46,7 +46,7 @@ def test_claims_to_the_letter_are_kept_apart(cache_folder):
 
 
 def test_a_table_leads_to_what_the_verdicts_rest_on_and_has_the_readings_that_were_judged():
-    assert report.table(networks()).splitlines()[0] == "| Claim | Thesis | Here | Verdict |"
+    assert report.verdicts(networks()).splitlines()[0] == "| Claim | Thesis | Here | Verdict |"
     kept = {"claims": report.kept(networks()), "letter": report.kept(networks(*paper_c()[::-1]))}
     table = report.rows(kept, ["C2"])
     assert table.splitlines()[0] == "| Claim | Thesis | To the letter | Calibrated | Verdict |"

@@ -6,12 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from companion.shared import marks, opening, provenance, report
-from companion.shared.fields import superposed_field
-from companion.shared.pins import PINS
-from companion.shared.priors import BEYOND
-from companion.shared.thesis_figures import draw_against_thesis
-from companion.shared.wording import number, scientific, table
+from companion.page import marks, opening, report
+from companion.study import provenance
+from companion.paper_a import superposed_field
+from companion.thesis.pins import PINS
+from companion.thesis.priors import BEYOND
+from companion.page.thesis_figures import draw_against_thesis
+from companion.page.wording import number, scientific, table
 from neorl import WaterWorld, superpose
 from neorl.drawing.style import linear_light
 from companion.thesis.reading import Reading, changed
@@ -54,23 +55,23 @@ def claims(runs=10, full_length=True, **verdicts):
 
 
 def test_a_box_has_verdicts_by_reading_with_links_or_says_that_there_are_none():
-    judged = {"calibrated": claims(A2="reproduced", A3="partly", A4="reproduced"),
-              "": claims(C1="not testable", T9="partly", B5="refuted by proof", C2="undecided")}
-    words, calibrated, nameless = opening.found(judged).split("\n\n")[2:5]
+    words, calibrated = opening.found(claims(A2="reproduced", A3="partly", A4="reproduced"),
+                                      "calibrated").split("\n\n")[2:4]
+    nameless = opening.found(claims(C1="not testable", T9="partly", B5="refuted by proof", C2="undecided"))
     assert words == "Calibrated: the weakest single map earns 0.10 [0.05, 0.20] a second more than Brownian motion."
     names = re.findall(r'<a href="../book/claims.md#claim-\w+" title="[^"]+">(\w+)</a>', calibrated)
     assert names == ["A2", "A4", "A3"]
-    assert re.sub("<[^>]+>|\u00a0", "", nameless) == (
+    assert re.sub("<[^>]+>|\u00a0", "", nameless).split("\n\n")[2] == (
         "?C2 undecided (more runs would tell); ◇C1 not testable (the agents learned too little). "
         "Counted apart: ∎B5 refuted by proof. Beside the claims: ◐T9 partly")
-    assert opening.found({"calibrated": [], "": []}) == ""
+    assert opening.found([], "calibrated") == ""
 
 
 @pytest.mark.parametrize("runs, full_length, said", [
     (9, True, "here are 9."),
-    (12, False, "here are 10, some shorter.")])
+    (12, False, "here are 12, some shorter.")])
 def test_a_box_of_few_or_short_runs_has_no_verdicts(runs, full_length, said):
-    box = opening.found({"": claims(A3="partly"), "calibrated": claims(runs, full_length, A2="reproduced")})
+    box = opening.found(claims(runs, full_length, A2="reproduced"))
     assert "A2" not in box and "**Quick look: no verdicts.**" in box and said in box
 
 

@@ -4,11 +4,10 @@ from companion.alternatives.controllers import PLANNED, nearest_green, pd, plann
 from companion.alternatives.living import BOARDS, FPS, bins_of, identity, live
 from companion.alternatives.search import DEEP, best_settings
 from companion.alternatives.tabular_learners import TABULAR
-from companion.shared import judging
-from companion.shared.report import CALIBRATED, LETTER
+from companion.page import judging
 from neorl import Condition, brownian, multimodal
 from companion.thesis import claims
-from companion.thesis.reading import PRIMES, TO_THE_LETTER, Reading, networks
+from companion.thesis.reading import NAMES, PRIMES, READINGS, networks
 from companion.thesis.verdict import FINAL, RUNS_FOR_A_VERDICT, fewest_runs
 
 INFORMED = {"nearest green": lambda gains: nearest_green(), "PD": pd, "planner": planner}  # given the physics
@@ -18,11 +17,11 @@ N_CREEPS, STEPS = 3, 150_000  # of the board and the runs by which claim C5 is j
 CREEPS_A = 8  # of the board of paper A, by which claim A10 is judged
 
 
-def of_thesis(readings):
-    """The thesis's agents under some readings, {name: `Reading`}: {"agent, reading": `Agent`}."""
-    return {f"{agent}, {name}": made for name, each in readings.items() for agent, made in {
-        "PC + OVC": multimodal(PRIMES, place_gain=each.place_gain, **each.agents),
-        "network D": networks(each)["D"]}.items()}
+def of_thesis():
+    """The thesis's agents under both readings: {"agent, reading": `Agent`}."""
+    return {f"{kind}, {NAMES[name]}": agent for name, reading in READINGS.items() for kind, agent in {
+        "PC + OVC": multimodal(PRIMES, place_gain=reading.place_gain, **reading.agents),
+        "network D": networks(reading)["D"]}.items()}
 
 
 def of_others(settings, board, steps, runs, seed):
@@ -46,7 +45,7 @@ def judge(results, earned):
 
 
 def _attempts(results, earned):
-    thesis, board = of_thesis({LETTER: TO_THE_LETTER, CALIBRATED: Reading()}), BOARDS[N_CREEPS]
+    thesis, board = of_thesis(), BOARDS[N_CREEPS]
     wanted = {name: Condition(agent, board, STEPS, 1) for name, agent in {BROWNIAN: brownian(), **thesis}.items()}
     ran = results | {name: earned[name].identity for name in TABULAR if name in earned}
     settings = best_settings()
@@ -58,7 +57,7 @@ def _attempts(results, earned):
             {name: (each.rate(*FINAL), each.seconds, SEES[name in DEEP]) for name, each in learners.items()},
             {name: earned[name].rate(*FINAL) for name in thesis}, earned[BROWNIAN].rate(*FINAL), 1 / FPS)]
 
-    return judging.judged(rule, ran, wanted)
+    return judging.judge(rule, ran, wanted)
 
 
 def _untrained(results, earned):
@@ -68,7 +67,7 @@ def _untrained(results, earned):
         return [claims.judge_untrained({name: each.rewards.sum(axis=1) for name, each in deep.items()},
                                        earned[BROWNIAN].rewards.sum(axis=1))]
 
-    return judging.judged(rule, results, {BROWNIAN: Condition(brownian(), BOARDS[CREEPS_A], STEPS, 1)}) if deep else []
+    return judging.judge(rule, results, {BROWNIAN: Condition(brownian(), BOARDS[CREEPS_A], STEPS, 1)}) if deep else []
 
 
 def _learners(names, results, earned):

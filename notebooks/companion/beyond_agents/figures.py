@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from companion.shared.panels import add_curves
+from companion.page.panels import add_curves
 from neorl.drawing.style import CURVES, GREEN, INK, RED, axes_or_new
 from neorl.statistics import estimate
 

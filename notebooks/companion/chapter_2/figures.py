@@ -7,7 +7,7 @@ from matplotlib.ticker import MaxNLocator
 
 from companion.chapter_2.tuning import egocentric
 from companion.shared.grid_figures import draw_grid, draw_policy, new_grids
-from companion.shared.panels import add_arrow, add_curves
+from companion.page.panels import add_arrow, add_curves
 from neorl.drawing.boards import new_boards
 from neorl.drawing.curves import draw_curves
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, letters, name_ends

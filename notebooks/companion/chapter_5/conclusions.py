@@ -6,17 +6,17 @@
    all have failed, and is *open* otherwise. It is *not judged* while none of them has a verdict.
 3. A claim that has not been judged has no row. One sentence says which these are, and how to have them judged.
 
-Records are as `companion.shared.report.load` returns them.
+Records are as `companion.page.report.load` returns them.
 """
 
 from dataclasses import replace
 
 from companion.chapter_5.trials import TIMED
-from companion.shared import judging, opening, report
-from companion.shared.marks import leads
-from companion.shared.report import CLAIMS_OF, LEGEND, NAMES, PART_OF
+from companion.page import judging, opening, report
+from companion.page.marks import leads
+from companion.page.report import CLAIMS_OF, LEGEND, PART_OF
 from companion.thesis import claims
-from companion.thesis.reading import additions
+from companion.thesis.reading import NAMES, additions
 from companion.thesis.statements import AGENTS, APART, CLAIMS, DEMONSTRATIONS, STATEMENTS
 from companion.thesis.verdict import FAILED, RUNS_FOR_A_VERDICT
 
@@ -37,14 +37,14 @@ def judge(ran, reading, moved, costs):
     ran: {key: `Result`}, of the groups "layers", "modal", "resolutions" and "revaluing" of a reading's conditions.
     moved, costs: a `trials.Moved` and a `trials.Costs`.
     """
-    wanted = judging.papers(reading, "layers", "modal", "resolutions", "revaluing")
+    wanted = judging.papers_conditions(reading, "layers", "modal", "resolutions", "revaluing")
     turned, wanting, place, both = (wanted[key] for key in ("revalued", "wanting", ("place", "all"), "both"))
     near = {group: each.mean(axis=2) for group, each in moved.distances.items()}
-    return [*judging.judged(lambda: [claims.judge_changes(ran["revalued"], ran["wanting"], near)],
-                            [ran["revalued"], ran["wanting"], moved.condition], [turned, wanting, place]),
-            *judging.judged(lambda: [claims.judge_cost(costs.first[-1], costs.alone, costs.none)],
-                            costs.condition, replace(both, steps=TIMED)),
-            *judging.judged(lambda: [claims.judge_more_maps(additions(ran))], ran, wanted)]
+    return [*judging.judge(lambda: [claims.judge_changes(ran["revalued"], ran["wanting"], near)],
+                           [ran["revalued"], ran["wanting"], moved.condition], [turned, wanting, place]),
+            *judging.judge(lambda: [claims.judge_cost(costs.first[-1], costs.alone, costs.none)],
+                           costs.condition, replace(both, steps=TIMED)),
+            *judging.judge(lambda: [claims.judge_more_maps(additions(ran))], ran, wanted)]
 
 
 def of_reading(record, reading, judged):

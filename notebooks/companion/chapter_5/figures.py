@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from companion.chapter_5.trials import SECONDS_A_MOVE
-from companion.shared.thesis_figures import draw_against_thesis
+from companion.page.thesis_figures import draw_against_thesis
 from companion.study import multiverse_figures
 from neorl.drawing.curves import draw_curves
 from neorl.drawing.style import CURVES, INK, axes_or_new, name_ends

@@ -9,10 +9,10 @@ from matplotlib.patches import Circle
 
 from companion.paper_b.receptive_fields import draw_receptive_fields
 from companion.paper_b.trials import values_for_objects
-from companion.shared.panels import add_arrow
-from companion.shared.style import FILL, mark
-from companion.shared.thesis_figures import draw_against_thesis
-from companion.shared.wording import number, table
+from companion.page.panels import add_arrow
+from companion.page.style import FILL, mark
+from companion.page.thesis_figures import draw_against_thesis
+from companion.page.wording import number, table
 from neorl.core.maps import NresMap
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 from neorl.drawing.boards import as_board, draw_tank, new_boards

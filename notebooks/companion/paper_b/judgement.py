@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from companion.shared import judging
+from companion.page import judging
 from companion.thesis import claims
 from companion.thesis.reading import PRIMES
 from companion.thesis.statements import STATEMENTS
@@ -18,15 +18,15 @@ def judge(ran, reading, paced, paying, joined, stays):
     modalities on boards that pay for a reset. joined: that of the agent to which a modality is added. stays: a
     `trials.Stays`.
     """
-    found = judging.of_papers(ran, reading, "modal", "resolutions") or judging.of_papers(ran, reading, "modal")
-    found += judging.of_papers(ran + paced, reading, "pace")
-    wanted = judging.papers(reading, "modal")
+    found = judging.judge_papers(ran, reading, "modal", "resolutions") or judging.judge_papers(ran, reading, "modal")
+    found += judging.judge_papers(ran + paced, reading, "pace")
+    wanted = judging.papers_conditions(reading, "modal")
     both, place, control = (wanted[key] for key in ("both", ("place", "all"), ("brownian", 3)))
     compared = judging.by_condition(ran, {"place": place, "control": control})
     changed = replace(place, changes=((place.steps // 2, both.agent),))
-    found += judging.judged(lambda: [claims.judge_points(paying)], paying,
-                            replace(both, world=replace(both.world, win_reward=PAYING)))
-    found += judging.judged(lambda: [claims.judge_joining(joined, compared["place"], compared["control"])],
-                            compared | {"joined": joined}, {"joined": changed, "place": place, "control": control})
-    found += judging.judged(lambda: [claims.judge_time_scale(PRIMES, stays.seconds)], stays.condition, place)
+    found += judging.judge(lambda: [claims.judge_points(paying)], paying,
+                           replace(both, world=replace(both.world, win_reward=PAYING)))
+    found += judging.judge(lambda: [claims.judge_joining(joined, compared["place"], compared["control"])],
+                           compared | {"joined": joined}, {"joined": changed, "place": place, "control": control})
+    found += judging.judge(lambda: [claims.judge_time_scale(PRIMES, stays.seconds)], stays.condition, place)
     return sorted(found, key=lambda claim: [*STATEMENTS].index(claim.name))

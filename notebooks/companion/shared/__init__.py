@@ -1,1 +1,1 @@
-"""Modules that several chapters share."""
+"""Toy systems, and figures, that several pages share."""

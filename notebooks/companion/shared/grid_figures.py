@@ -5,7 +5,7 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Rectangle
 
 from companion.shared.grid import MOVES, WALL
-from companion.shared.style import FILL, mark
+from companion.page.style import FILL, mark
 from neorl.drawing.style import AGENT, GREEN, INK
 
 

@@ -26,7 +26,7 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
-from companion.shared.priors import WITHIN
+from companion.thesis.priors import WITHIN
 from companion.study import calibration_table
 from companion.study.calibration_table import Row
 from companion.study.calibration_targets import GROUPS, TARGETS

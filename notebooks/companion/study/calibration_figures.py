@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from companion.shared.priors import WITHIN
+from companion.thesis.priors import WITHIN
 from companion.study.calibration_results import progress
 from neorl.drawing.style import AGENT, INK, RED, SMALL, TEXT, axes_or_new, name_ends, width_of_figures
 

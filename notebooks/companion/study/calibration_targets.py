@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from companion.shared.marks import DECIDED
+from companion.page.marks import DECIDED
 from neorl import checks
 from companion.thesis.statements import STATEMENTS, Bounds
 from neorl.statistics import WINDOW, Estimate, first_time, rates_in_windows

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from companion.shared.priors import WITHIN
+from companion.thesis.priors import WITHIN
 from companion.study.calibration import IN_FULL, Emulator, reading_at
 from companion.study.calibration_results import best, claims_together
 from companion.study.calibration_table import Row, read_table

@@ -1,6 +1,6 @@
 """A reading of the thesis: a value for every choice, the agents and experiments that follow, and their judgement.
 
-1. A `Reading` makes every choice that the text pins or leaves open (`notebooks/companion/shared/pins.py`).
+1. A `Reading` makes every choice that the text pins or leaves open (`notebooks/companion/thesis/pins.py`).
 2. Its *conditions* are the experiments of the papers under it, in groups, cheap ones first.
 3. The rules of `companion.thesis.claims` judge it, on every claim for which the available conditions suffice.
 """
@@ -127,6 +127,7 @@ class Reading:
 # What the text prints or pins; where it leaves more, the simplest or the middle of a prior, as the pins say.
 TO_THE_LETTER = Reading(**papers.TO_THE_LETTER, place_gain=1.0, scale=papers.LITERAL_SCALE, paper_a_fps=PAPER_FPS)
 READINGS = {"calibrated": Reading(), "letter": TO_THE_LETTER}  # by the names of a page's parameter
+NAMES = {"calibrated": "calibrated", "letter": "to the letter"}  # of these
 
 
 def named(reading: Reading) -> str:

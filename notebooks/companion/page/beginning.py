@@ -8,7 +8,7 @@ from IPython.display import Markdown
 from matplotlib import pyplot as plt
 from matplotlib_inline.backend_inline import set_matplotlib_formats
 
-from companion.shared import parameters
+from companion.page import parameters
 from neorl.core.kernel import function_of
 from neorl.drawing.style import use_style
 

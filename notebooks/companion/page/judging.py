@@ -15,7 +15,7 @@ from neorl.experiments.result import Result
 PAPERS = {"layers": "A", "single": "A", "networks": "C"}  # whose conditions are in a group; else paper B's
 
 
-def judged(rules, ran, wanted):
+def judge(rules, ran, wanted):
     """The claims that rules() judges, a list: none unless what a page ran is what they are about.
 
     rules: a function without arguments that returns a sequence of `Claim`s. ran, wanted: see `same`.
@@ -26,14 +26,14 @@ def judged(rules, ran, wanted):
     return [replace(claim, full_length=as_long and claim.full_length) for claim in rules()]
 
 
-def of_papers(results, reading, *groups):
-    """The claims of the papers that a reading judges by results of groups of its conditions: a list, see `judged`.
+def judge_papers(results, reading, *groups):
+    """The claims of the papers that a reading judges by results of groups of its conditions: a list, see `judge`.
 
     results: of all that was run, which its agents and worlds tell apart, a list.
     """
-    wanted = papers(reading, *groups)
+    wanted = papers_conditions(reading, *groups)
     ran = by_condition(results, wanted)
-    return judged(lambda: readings.judge(ran).values(), ran, wanted)
+    return judge(lambda: readings.judge(ran).values(), ran, wanted)
 
 
 def by_condition(results, wanted):
@@ -46,7 +46,7 @@ def by_condition(results, wanted):
     return {key: max(some, key=lambda result: (result.steps, result.runs)) for key, some in of_key.items() if some}
 
 
-def papers(reading, *groups):
+def papers_conditions(reading, *groups):
     """The papers' own conditions of some groups under a reading, {key: `Condition`}."""
     steps = max(readings.LENGTHS[PAPERS.get(group, "B")] for group in groups)
     return readings.conditions(reading, steps, 1, groups=groups)

@@ -12,17 +12,15 @@ from collections import Counter
 
 import numpy as np
 
-from companion.shared import wording
-from companion.shared.errata import ERRATA
-from companion.shared.marks import DECIDED, NOT_COMPUTED, leads, legend, symbol
-from companion.shared.opening import link
+from companion.page import wording
+from companion.thesis.errata import ERRATA
+from companion.page.marks import DECIDED, NOT_COMPUTED, leads, legend, symbol
+from companion.page.opening import link
 from companion.thesis.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.statistics import Estimate
 from neorl.experiments.condition import source_digest
 from neorl.files import cache_folder, write_whole
 
-LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
-NAMES = {"letter": LETTER, "calibrated": CALIBRATED}  # by those of a page's parameter
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
 LEGEND = (f"{legend()}; without a symbol, no verdict. Numbers: the quantities in italics, with 95\u00a0% intervals "
           "over runs. Intervals of times can lie below the time, since noise reaches a level early. A claim's name "
@@ -35,11 +33,11 @@ CLAIMS_OF = {"alternatives": ("A10", "C5"), "chapter_2": ("H1",), "chapter_3": (
              "other_spaces": ("G1", "G2", "G3", "G4"), "paper_a": (*(f"A{n}" for n in range(1, 10)), "A11", "T9"),
              "paper_b": (*(f"B{n}" for n in range(1, 8)), "T8"), "paper_c": ("C1", "C2", "C3", "C4"),
              "assumptions": (*(f"A{n}" for n in range(1, 10)), "A11", "B1", "B2", "B3", "B4", "B6", "C1", "C2", "C3",
-                             "C4", "T1", "T6")}  # the last to the letter
+                             "C4", "T6")}  # the last to the letter
 MISSING = None, "", "", ""  # a number under one reading that the other has not
 
 
-def table(claims):
+def verdicts(claims):
     """Claims as a Markdown table, then demonstrations, and a legend; "" if there are none."""
     record = {"claims": kept(claims), "letter": {}}
     some, others = ([claim.name for claim in claims if claim.name in kind] for kind in (CLAIMS, DEMONSTRATIONS))

@@ -6,22 +6,20 @@ ones, the box says so instead.
 
 from html import escape
 
-from companion.shared.marks import explained, html
+from companion.page.marks import explained, html
+from companion.thesis.reading import NAMES
 from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
 from companion.thesis.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
 CLAIMS_PAGE = "../book/claims.md"  # from a notebook; the build makes it the built page
 
 
-def found(judged):
-    """The box of a page, a line for each reading, or "" without claims. judged: {reading: [Claim, …]}."""
-    claims = [claim for claims in judged.values() for claim in claims]
+def found(claims, reading=""):
+    """The box of a page, or "" without claims, a list. reading: of a page, or ""."""
     if not claims:
         return ""
-    lines = []
-    for reading, some in judged.items():
-        lines += [in_words({claim.name: claim.here for claim in some}, reading),
-                  _line({claim.name: claim.verdict for claim in some})] if some else []
+    lines = [in_words({claim.name: claim.here for claim in claims}, NAMES.get(reading, "")),
+             _line({claim.name: claim.verdict for claim in claims})]
     runs = min(claim.runs for claim in claims)
     if runs < RUNS_FOR_A_VERDICT or not all(claim.full_length for claim in claims):
         shorter = ", some shorter" * any(not claim.full_length for claim in claims)

@@ -1,14 +1,14 @@
 """What the text fixes and leaves open, choice by choice, and the source of every other constant, as Markdown tables.
 
-Values are read from the code that uses them, and sentences from `companion.shared.pins`, so the tables agree with both.
+Values are read from the code that uses them, and sentences from `companion.thesis.pins`, so the tables agree with both.
 """
 
 import re
 from typing import NamedTuple
 
-from companion.shared import wording
-from companion.shared.pins import PINS
-from companion.shared.priors import BEYOND, WITHIN
+from companion.page import wording
+from companion.thesis.pins import PINS
+from companion.thesis.priors import BEYOND, WITHIN
 from companion.shared.smoothing import CUTOFF_PERIODS, FILTER_ORDER
 from companion.thesis.reading import LAYERS, LENGTHS, PRIMES, SINGLE, TO_THE_LETTER, Reading, conditions
 from companion.thesis.statements import STATEMENTS

@@ -1,12 +1,12 @@
 """Figures that compare results with the numbers that the thesis reports.
 
-The thesis's numbers are in grey and labelled with their value; results have a colour.
+The thesis's numbers are in grey, with their values, the first with "thesis"; results have a colour.
 """
 
 import numpy as np
 from matplotlib.text import Annotation
 
-from companion.shared.style import mark
+from companion.page.style import mark
 from neorl.drawing.style import CURVES, INK, SMALL, axes_or_new, name_ends, width_of_figures
 
 ROW = 0.62  # inches
@@ -28,8 +28,8 @@ def draw_against_thesis(thesis, found, xlabel, lines=()):
     printed = {row: number for row, number in enumerate(thesis.values()) if number is not None}
     marked = np.array([*printed])
     axes.vlines([*printed.values()], marked - 0.36, marked + 0.36, color=INK, linewidth=2.2)
-    names = [axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), xytext=(0, 0),
-                           textcoords="offset points", fontsize=SMALL, ha="center", va="bottom")
+    names = [axes.annotate(f"{'thesis ' * (row == min(printed))}{number:g}".replace("-", "−"), (number, row - 0.38),
+                           xytext=(0, 0), textcoords="offset points", fontsize=SMALL, ha="center", va="bottom")
              for row, number in printed.items()]
     value, low, high = np.array([found[label] for label in thesis]).T
     axes.plot(value, rows, color=colour, linestyle="none", marker="o", markersize=6)

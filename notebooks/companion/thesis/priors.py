@@ -1,12 +1,12 @@
 """Priors for every choice of a reading: one space within the text, and one beyond it.
 
 1. Each choice has its own prior, a distribution or equally likely levels, stated before any result.
-2. Within the text (`WITHIN`), a choice that `companion.shared.pins` pins to one value is not varied; open choices are
+2. Within the text (`WITHIN`), a choice that `companion.thesis.pins` pins to one value is not varied; open choices are
    varied widely.
 3. Beyond the text (`BEYOND`), pinned choices are varied as well, jointly with all others.
 4. The reading to the letter takes the values that the text pins. Where more than one is left, it takes the one that a
    sentence or an equation prints, or else the simplest, which stands first among the levels, or else the middle of the
-   prior, which is a number of ours. `companion.shared.pins` says which and why.
+   prior, which is a number of ours. `companion.thesis.pins` says which and why.
 5. Trials outside this project had found α of 0.03, −ψ(0) of 0.9 and memories of some 20 cells before these priors were
    written; they reach far beyond on either side.
 """

@@ -1,0 +1,51 @@
+"""What the papers' agents earn to the letter and calibrated, side by side on one axis, as an HTML table.
+
+The readings may tell different stories, of which verdicts show only the end. Numbers are those of claims in the record.
+"""
+
+from html import escape
+
+from companion.page import report
+from companion.thesis.reading import NAMES
+from companion.thesis.statements import STATEMENTS
+
+ROWS = {  # {agents: (claim, its number; "" for the one that it is about)}
+    "Paper A: N3, N7 and N23 together": ("A7", "final reward per second, 3, 7 and 23 together"),
+    "Paper A: N7 alone": ("A7", "final reward per second, N7"),
+    "Paper A: Brownian motion": ("A7", "final reward per second, Brownian motion"),
+    "Paper B: places and objects": ("B3", ""),
+    "Paper B: places alone": ("B3", "place cells"),
+    "Paper C: network A": ("C1", "A"),
+    "Paper C: network C": ("C1", "C")}
+
+
+def section(record):
+    """The levels under both readings with a heading, in MyST Markdown; "" unless both have all of them."""
+    levels = {reading: [_level(record[part], *number) for number in ROWS.values()]
+              for reading, part in report.PART_OF.items()}
+    if not all(map(all, levels.values())):
+        return ""
+    times, both, place = (bounds.number for bounds in (STATEMENTS["A7"].bounds, STATEMENTS["B3"].bounds,
+                                                        STATEMENTS["B3"].also["place cells"]))
+    most = max(value for of_reading in levels.values() for value, *_ in of_reading)
+    heads = "".join(f'<th scope="col">{NAMES[reading].capitalize()}</th>' for reading in ("letter", "calibrated"))
+    rows = "".join(f'<tr><th scope="row">{escape(name)}</th>{_cell(letter, most)}{_cell(calibrated, most)}</tr>'
+                   for name, letter, calibrated in zip(ROWS, levels["letter"], levels["calibrated"]))
+    return ("## Two readings, two stories\n\nReward per second at the end of the runs, on one axis. In the thesis "
+            f"three maps earn {times:g} times as much as N7, both modalities {both:g} a second beside {place:g} of "
+            "places alone, and C more than A.\n\n"
+            f'<table class="answer levels"><thead><tr><th scope="col">Agent</th>{heads}</tr></thead>'
+            f"<tbody>{rows}</tbody></table>")
+
+
+def _level(claims, name, number):
+    """The level as a number of a claim has it, with its interval, or None."""
+    if name not in claims:
+        return None
+    return claims[name]["numbers"][number][0] if number else claims[name]["here"]
+
+
+def _cell(level, most):
+    width = 100 * max(level[0], 0) / most
+    return (f'<td class="share"><span class="bar"><span style="width:{width:.1f}%"></span></span>'
+            f"<span>{report.number({'here': level})}</span></td>")
