@@ -23,7 +23,7 @@ from neorl.files import cache_folder, write_whole
 
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
 LEGEND = (f"{legend()}; without a symbol, no verdict. Numbers: the quantities in italics, with 95\u00a0% intervals "
-          "over runs. Intervals of times can lie below the time, since noise reaches a level early. A claim's name "
+          "over runs. Intervals of times reach further down than up, since noise reaches a level early. A claim's name "
           "leads to what its verdict rests on.")
 BESIDE = "Demonstrations of this book, not counted among the claims:"
 PART_OF = {"calibrated": "claims", "letter": "letter"}  # of readings
