@@ -1,24 +1,29 @@
 /* The Explorer's state in the address of its page, so that a link can identify a run, its settings and a moment of it.
 
 The first Explorer of a page uses the fragment that begins with `#explorer`. In an application such as JupyterLab, whose
-address is its own, the Explorer keeps nothing there, and links in a notebook lead to its first Explorer. The fragment has the settings that differ from the preset, by their names in `SHORT`, also `run` and `seed`; the `minute` at which
-the run pauses; the `map` shown, with the `goal` chosen in it; the agent `beside` it, with the minutes for which that
-one has `learned`; and `start`, one of the things to try. An example is #explorer_agent-network-d_run-7_red-0p5. Without
-an agent, it means the one with which the page begins. Names are in lower case, and p is the decimal point, because
-pages use a fragment as a selector, which allows few other characters. */
+address is its own, the Explorer keeps nothing there, and links in a notebook lead to its first Explorer. The fragment
+has the settings that differ from the preset, by their names in `SHORT`, also `run` and `seed`; the `minute` at which
+the run pauses, and `second`; the `map` shown, with the `goal` chosen in it; the agent `beside` it, with the minutes for
+which that one has `learned`; the `elements` dropped at that minute, each as x, y and valence; and `start`, one of the things to try. An
+example is #explorer_agent-network-d_run-7_red-0p5. Without an agent, it means the one with which the page begins. Names
+are in lower case, and p is the decimal point, because pages use a fragment as a selector, which allows few other
+characters. */
 
 const PREFIX = "#explorer";
 const SHORT = { agent: "preset", run: "run", seed: "seed", resolutions: "resolutions", modality: "modality",
   recursion: "recursion", red: "valence_red", gains: "gains", exploration: "exploration", rate: "learning_rate",
   discount: "discount", memory: "memory", creeps: "n_creeps", state: "object_state" };
 const LISTS = ["resolutions", "gains"];
+const [MOST_LENGTHS, FAR] = [4, 1e6]; // of a preset's run, that a link leads through; minutes
 
 const slug = (text) => text.toLowerCase().replaceAll(/[^a-z0-9]+/g, "-").replaceAll(/^-|-$/g, "");
 const named = (names, text) => names.find((name) => slug(name) === text) ?? text;
 const written = (number) => String(number).replace(".", "p");
 const numberOf = (text) => (text.trim() === "" ? NaN : Number(text.replace("p", ".")));
 
-/** Parse an address into {settings, minute, map, goal, beside, start}, or null if it is not for an Explorer. */
+const numbersOf = (text) => text.split(/(?<=\d)-/).map(numberOf); // another hyphen is a minus
+
+/** Parse an address into {settings, minute, map, goal, beside, elements, start}, or null if it is not for an Explorer. */
 function readAddress(hash, presets, modalities, first) {
   if (!hash.startsWith(PREFIX)) return null;
   const said = Object.fromEntries(hash.slice(PREFIX.length).split("_").filter(Boolean).map((part) => {
@@ -29,7 +34,7 @@ function readAddress(hash, presets, modalities, first) {
     if (name === "preset") return named(Object.keys(presets), text);
     if (name === "modality") return named(Object.keys(modalities), text);
     if (name === "object_state") return named(Object.keys(STATES), text);
-    return LISTS.includes(name) ? text.split("-").map(numberOf) : numberOf(text);
+    return LISTS.includes(name) ? numbersOf(text) : numberOf(text);
   };
   const given = Object.entries(SHORT).filter(([short]) => Object.hasOwn(said, short))
     .map(([short, name]) => [name, valueOf(name, said[short])]);
@@ -38,13 +43,17 @@ function readAddress(hash, presets, modalities, first) {
   const isSaid = (name) => Object.hasOwn(said, name);
   const other = isSaid("beside") ? valueOf("preset", said.beside) : null;
   const beside = other && { agent: other === key ? "" : other, learned: numberOf(said.learned ?? "0") };
-  return { beside, settings: { ...defaults, preset: key, run: 0, ...Object.fromEntries(given) },
-    minute: isSaid("minute") ? numberOf(said.minute) : null, start: said.start, map: said.map,
+  const [numbers, minute, second] = [isSaid("elements") ? numbersOf(said.elements) : [],
+    ...["minute", "second"].map((name) => numberOf(said[name] ?? "0"))];
+  const elements = Array.from({ length: Math.ceil(numbers.length / 3) }, (_, at) =>
+    ({ x: numbers[3 * at], y: numbers[3 * at + 1], valence: numbers[3 * at + 2] }));
+  return { beside, elements, settings: { ...defaults, preset: key, run: 0, ...Object.fromEntries(given) },
+    minute: isSaid("minute") || isSaid("second") ? minute + second / 60 : null, start: said.start, map: said.map,
     goal: isSaid("goal") ? numberOf(said.goal) : null };
 }
 
 /** The address of the settings that differ from their preset's, and of the view. */
-function addressOf(presets, settings, { minute, map, goal, beside }) {
+function addressOf(presets, settings, { seconds, map, goal, beside, elements }) {
   const { preset } = settings;
   const defaults = { ...initialSettings(presets, preset), preset: null, run: null, seed: presets[preset].seed };
   const parts = [PREFIX];
@@ -54,8 +63,11 @@ function addressOf(presets, settings, { minute, map, goal, beside }) {
     parts.push(`${short}-${Array.isArray(value) ? value.map(written).join("-")
       : typeof value === "string" ? slug(value) : written(value)}`);
   }
-  if (minute) parts.push(`minute-${written(minute)}`);
+  const [minute, second] = [Math.floor(seconds / 60), Number((seconds % 60).toFixed(2))];
+  if (seconds) parts.push(`minute-${minute}`, ...(second ? [`second-${written(second)}`] : []));
   if (goal !== null) parts.push(`map-${slug(map)}`, `goal-${goal}`);
+  const numbers = elements.flatMap(({ x, y, valence }) => [x, y, valence].map((each) => Number(each.toFixed(3))));
+  if (numbers.length) parts.push(`elements-${numbers.map(written).join("-")}`);
   if (beside) parts.push(`beside-${slug(beside.agent || preset)}`, `learned-${beside.learned}`);
   return parts.join("_");
 }
@@ -92,45 +104,52 @@ class Address extends Tour {
     this.visit(link.hash);
   }
 
-  /** Open the run that an address describes, if it is one of an Explorer. */
-  visit(hash) {
+  /** Open the run that an address describes, if it is one of an Explorer; then set these traits, if any. */
+  visit(hash, values = {}) {
     const { presets, modalities, model } = this;
     const said = readAddress(hash, presets, modalities, this.first);
     if (!said) return;
-    const { settings, minute, map, goal, beside, start } = said;
+    const { settings, minute, map, goal, beside, elements, start } = said;
     const starts = { watch: () => this.watch(), red: () => this.revalueRed(), corner: () => this.showCorner(),
-      game: () => this.joinGame() };
+      veteran: () => this.meetVeteran(), game: () => this.joinGame() };
     const wishes = { get: (name) => (Object.hasOwn(settings, name) ? settings[name] : model.get(name)) };
-    const isMoment = minute === null || (minute >= 0 && minute < 1e6);
+    const isMoment = minute === null || (minute >= 0 && minute < FAR);
+    const areElements = elements.length <= MOST_ELEMENTS && elements.every(({ x, y, valence }) =>
+      [x, y].every((place) => place >= 0 && place <= 1) && Math.abs(valence) <= 2);
     const problem = problemOf(presets, modalities, wishes) || (isMoment ? "" : "Its minute must be a number ≥ 0.")
+      || (areElements ? "" : `Its elements must be at most ${MOST_ELEMENTS}, each as x, y and a valence from −2 to 2.`)
       || this.problemBeside(settings.preset, beside) || problemOfStart(presets[settings.preset], start);
     if (problem) {
       this.refuse(this.control("preset"), `The address does not describe a run of this Explorer. ${problem}`);
       this.part(".refused").scrollIntoView({ block: "nearest" });
       return;
     }
+    this.left = null;
     clearTimeout(this.writing); // the address of the run that is left
-    this.part(".board canvas").scrollIntoView({ block: "nearest" });
+    this.showTank();
     const { world, steps } = presets[settings.preset];
-    const step = Math.min(steps, Math.round((minute ?? 0) * 60 * world.fps));
+    const step = Math.min(MOST_LENGTHS * steps, Math.round((minute ?? 0) * 60 * world.fps));
     const act = async () => {
       if (minute !== null || this.calm) this.write({ playing: false });
       const cell = isWhole(0, MOST_SEED)(goal) ? goal : null;
       if (map) await this.look({ map: named(this.life.frame.maps, map), goal: cell });
       if (Object.hasOwn(starts, start)) await starts[start]();
+      this.write(values);
+      if (step) elements.forEach((element) => this.addElement(element));
       this.refresh();
     };
-    this.compare(beside);
-    this.fresh({ ...settings, playing: true }, { step, hurries: true, act, news: "Running up to that moment …" });
+    const due = { step, hurries: true, act, news: "Running up to that moment …" };
+    this.fresh({ ...settings, playing: true }, due, { beside, elements: step ? [] : elements });
   }
 
-  /** The address of the settings and the view, and of the present moment, unless the run was changed on the way. */
+  /** The address of the settings and the view, and of the present moment, unless the run was changed on the way by more
+   * than what is dropped there. */
   addressOfNow(isMoment) {
-    const { life: { frame, changed, world }, presets, model } = this;
+    const { elements, life: { frame, changed, world }, presets, model } = this;
     const settings = { ...this.settings(), seed: model.get("seed"), run: model.get("run") };
-    const minute = isMoment && frame && !changed ? Number((frame.step / world.fps / 60).toFixed(5)) : 0;
+    const seconds = isMoment && frame && (!changed || elements.length) ? frame.step / world.fps : 0;
     const { name: map = "", goal = null } = frame?.seen ?? {};
-    return addressOf(presets, settings, { minute, map, goal, beside: this.beside });
+    return addressOf(presets, settings, { seconds, map, goal, beside: this.beside, elements });
   }
 
   /** Update the page's address, once the reader has used a control, without a new entry in the history. */
@@ -139,13 +158,5 @@ class Address extends Tour {
     clearTimeout(this.writing);
     const write = () => history.replaceState(history.state, "", this.addressOfNow(!this.running()));
     this.writing = setTimeout(write, 300);
-  }
-
-  async copyLink() {
-    const link = new URL(this.addressOfNow(true), location.href).href;
-    if (this.hasAddress()) history.replaceState(history.state, "", link);
-    this.life.news = await navigator.clipboard?.writeText(link).then(() => "Link copied.", () => null)
-      ?? "The address of the page is the link to this moment.";
-    this.refresh();
   }
 }

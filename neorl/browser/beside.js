@@ -8,6 +8,22 @@ const LESSONS = [100, 10, 0]; // simulated minutes for which the second agent ma
 const VETERAN = { agent: "", learned: LESSONS[0] };
 
 class Beside extends Starters {
+  /** Two minutes of a newborn and a veteran, at a pace at which they can be told apart. */
+  meetVeteran() {
+    const { steps, world: { fps } } = this.presets[this.model.get("preset")];
+    const act = () => {
+      const { beside, life: { frame, second } } = this;
+      if (!beside || !second) return;
+      this.write({ playing: false });
+      const lead = second.frame.reward - frame.reward;
+      const ahead = lead < 0 ? "newborn" : "veteran";
+      this.life.news = `${this.livedText()}: the ${ahead} is ${shown(Math.abs(lead))} ahead.`;
+    };
+    const news = "Same agent, same seed, for two minutes.";
+    this.fresh({ speed: 10, playing: true }, { step: Math.min(steps, 120 * fps), hurries: false, act, news },
+      { beside: VETERAN });
+  }
+
   /** Begin a run beside {agent: a preset, or "" for the same one, learned: minutes}, or, given null, end that. */
   compare(beside) {
     this.beside = beside;
@@ -17,7 +33,7 @@ class Beside extends Starters {
   }
 
   toggleSecond() {
-    return this.compare(this.beside ? null : VETERAN);
+    return this.beside ? this.compare(null) : this.meetVeteran();
   }
 
   chooseSecond() {
@@ -76,12 +92,16 @@ class Beside extends Starters {
   async teach(request) {
     const seed = (this.model.get("seed") + 1) % (MOST_SEED + 1);
     let frame = await this.askSecond({ ...request, seed, changes: [], bin_steps: request.steps });
-    while (frame && !frame.ended && !this.noted.size) {
+    const isLeft = () => [...this.noted].some((name) => !["speed", "playing"].includes(name));
+    while (frame && !frame.ended && !isLeft()) {
       const minutes = Math.floor(frame.step / request.world.fps / 60);
       this.part(".lived").textContent = `The second agent has learned for ${minutes} minutes …`;
       frame = await this.askSecond({ type: "advance", steps: STEPS_WITHOUT_END, budget: FREE_BUDGET });
     }
-    if (frame && !frame.ended) this.note("run");
+    if (frame && !frame.ended) {
+      if (!NEW_RUN.some((name) => this.noted.has(name))) this.due = this.life.due;
+      this.note("run");
+    }
     return Boolean(frame?.ended);
   }
 

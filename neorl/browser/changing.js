@@ -17,6 +17,7 @@ function become(choices) {
     copy(run.world_state, old.world_state);
     copy(run.second, old.second);
     run.rewards.set(old.rewards);
+    run.hits.set(old.hits);
     run.clock.set(old.clock);
     const { step, reward, player, changes, trail } = old;
     Object.assign(run, { step, reward, player, changes, trail });

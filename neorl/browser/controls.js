@@ -15,15 +15,22 @@ class Controls {
 
   fillMenus() {
     const { presets } = this;
-    const keys = orderedKeys(presets);
-    fillMenu(this.control("preset"), presets, keys);
-    this.control("open-preset").append(...keys.filter((key) => presets[key].totals.length)
-      .map((key) => new Option(presets[key].label, key)));
+    fillMenu(this.control("preset"), presets, orderedKeys(presets));
     this.control("learned").append(...LESSONS.map((minutes) => new Option(`${minutes} minutes`, minutes)));
     this.control("modality").append(...Object.keys(this.modalities).map((name) => new Option(name, name)));
     this.control("object_state").append(...Object.entries(STATES).map(([state, label]) => new Option(label, state)));
-    this.part(".open").hidden = !this.control("open-preset").length;
-    this.limitRun();
+  }
+
+  /** Put one control beside the tank, with a sentence on it, and fold the others. */
+  putFirst(name) {
+    const { parentElement: label } = this.control(name);
+    const help = Object.assign(document.createElement("p"), { className: "help", textContent: HELP[name] });
+    const first = Object.assign(document.createElement("div"), { className: "only" });
+    first.append(label.closest(".setting") ?? label, help);
+    this.part(".starters").prepend(this.action("tour"));
+    this.part(".more").prepend(...[".bar", ".settings", ".starters", ".tools"].map((each) => this.part(each)));
+    this.part(".columns").prepend(first);
+    this.part("summary").textContent = "All controls";
   }
 
   turned({ type, target }) {
@@ -32,7 +39,7 @@ class Controls {
     this.touched = true;
     if (kind === "number" && !target.checkValidity()) return this.refuse(target, WHOLE(target));
     if (kind === "number") this.forgive();
-    const act = { resolutions: () => this.writeResolutions(target), "open-preset": () => this.limitRun(),
+    const act = { resolutions: () => this.writeResolutions(target),
       preset: () => this.chooseAgent(value),
       modality: () => this.write({ modality: value }), object_state: () => this.write({ object_state: value }),
       speed: () => this.write({ speed: SPEEDS[value] }),
@@ -52,7 +59,8 @@ class Controls {
     if (resolution) return this.toggleResolution(Number(resolution));
     const acts = { play: () => this.togglePlay(), step: () => this.step(), reset: () => this.reset(),
       "new-run": () => this.newRun(), open: () => this.openRun(), drop: () => this.beginDrop(detail === 0),
-      delete: () => this.deleteElement(), link: () => this.copyLink(), watch: () => this.watch(),
+      delete: () => this.deleteElement(), link: () => this.copyLink(), picture: () => this.savePicture(),
+      csv: () => this.saveRun(), alone: () => this.showAlone(), "go-on": () => this.goOn(), watch: () => this.watch(),
       red: () => this.revalueRed(), corner: () => this.showCorner(), compare: () => this.toggleSecond(),
       game: () => (this.life.game ? this.leaveGame() : this.joinGame()), clear: () => this.clearElements(),
       tour: () => this.startTour(), next: () => this.nextStop(), end: () => this.endTour() };
@@ -62,6 +70,7 @@ class Controls {
 
   /** Begin a run of an agent, also of the present one, since its run may have failed. */
   chooseAgent(preset) {
+    this.due = this.beginningOf(preset);
     this.write(initialSettings(this.presets, preset));
     this.showControls(); // at once, so that no slider of the previous agent is left
     this.note("preset");
@@ -71,6 +80,15 @@ class Controls {
     const again = this.life.frame?.ended;
     if (again) this.note("run"); // the same run, with the present settings
     this.write({ playing: again || !this.model.get("playing") });
+  }
+
+  /** Let a run that is over go on for as long again. */
+  async goOn() {
+    const { length, second } = this.life;
+    Object.assign(length, { steps: 2 * length.steps, bin: 2 * length.bin });
+    this.take(await this.ask({ type: "extend" }));
+    if (second) this.takeSecond(await this.askSecond({ type: "extend" }));
+    this.refresh();
   }
 
   step() {
@@ -83,7 +101,7 @@ class Controls {
     if (!this.life.frame) this.abandon();
     const keys = [this.model.get("preset"), ...orderedKeys(this.presets)];
     const preset = keys.find((each) => Object.hasOwn(this.presets, each));
-    this.write(this.failed ? { preset, speed: SPEEDS[4] } : { preset });
+    this.write({ preset });
     this.fresh();
   }
 
@@ -93,23 +111,20 @@ class Controls {
   }
 
   openRun() {
-    const [preset, run] = [this.control("open-preset").value, this.control("open-run")];
+    const run = this.control("open-run");
     if (!run.checkValidity()) return this.refuse(run, WHOLE(run));
     this.forgive();
     if (!this.life.frame) this.abandon();
-    this.write({ preset });
+    this.write({ preset: this.condition });
     return this.fresh({ run: run.valueAsNumber, speed: 0, playing: true });
   }
 
   /** Offer the runs of the condition that is watched, if it has any. */
-  offerRuns(condition) {
-    if (!this.presets[condition].totals.length) return;
-    this.control("open-preset").value = condition;
-    this.limitRun();
-  }
-
-  limitRun() {
-    this.control("open-run").max = (this.presets[this.control("open-preset").value]?.totals.length ?? 1) - 1;
+  offerRuns() {
+    const { totals = [] } = this.presets[this.condition] ?? {};
+    this.part(".open").hidden = !totals.length;
+    this.part(".of").textContent = `of ${totals.length}, as behind the figure`;
+    this.control("open-run").max = totals.length - 1;
   }
 
   writeResolutions(field) {
@@ -120,10 +135,12 @@ class Controls {
     return this.write({ resolutions: inOrder(numbers) });
   }
 
-  /** Restore the old value of a field whose new one is not allowed, with a message. */
+  /** Restore the old value of a field whose new one is not allowed, with a message below it. */
   refuse(field, allowed) {
+    const message = this.part(".refused");
     field.ariaInvalid = "true";
-    this.part(".refused").textContent = `${allowed} Nothing was changed.`;
+    (field.closest(".setting, .open") ?? field.parentElement).after(message);
+    message.textContent = `${allowed} Nothing was changed.`;
     if (field.name === "open-run") field.value = 0;
     this.showControls();
   }
@@ -160,8 +177,11 @@ class Controls {
     this.action("drop").disabled = !frame || this.elements.length >= MOST_ELEMENTS;
     this.action("clear").disabled = !frame || !this.elements.length;
     this.action("drop").ariaPressed = Boolean(this.dropping);
-    this.action("step").disabled = !frame || frame.ended;
-    Object.assign(this.action("link"), { disabled: !frame, hidden: isInApplication() });
+    Object.assign(this.action("step"), { disabled: !frame, hidden: frame?.ended });
+    this.action("go-on").hidden = !frame?.ended;
+    for (const name of ["link", "picture", "csv"]) this.action(name).disabled = !frame;
+    this.action("link").hidden = isInApplication();
+    this.action("alone").hidden = !document.fullscreenEnabled;
     this.offerStarters();
     this.showSecond();
     for (const name of ["map", "field", "heat"]) this.control(name).disabled = !frame;
@@ -208,6 +228,7 @@ class Controls {
     this.showSlider("horizon", Math.log10(horizon), discounts ? cells : "no effect");
     this.showSlider("memory", memory ? Math.log10(memory) : NO_MEMORY, shown(memory));
     grow(this.part(".gains"), nodes.length, (index) => slide(`gain-${index}`, "", 0, 5, 0.1));
+    this.part(".gains").hidden = nodes.length === 1; // the choice among actions does not depend on it
     nodes.forEach((node, index) => {
       this.control(`gain-${index}`).parentElement.firstChild.textContent = `Gain of ${node}`;
       this.showSlider(`gain-${index}`, model.get("gains")[index]);
@@ -237,7 +258,7 @@ class Controls {
   }
 
   draw(now = performance.now()) {
-    const { life: { frame, cursor, length, world, rate, second }, condition } = this;
+    const { life: { frame, cursor, world, rate } } = this;
     const isLoading = !frame && !this.failed;
     if (!this.arena.clientWidth || (isLoading && this.drawn)) return; // keep the last picture while loading
     Object.assign(this, { drawn: now, stale: false });
@@ -246,9 +267,7 @@ class Controls {
     drawArena(this.arena, colours, frame, { cursor, trail: this.control("trail").checked });
     this.arrange(Boolean(frame?.arm));
     if (frame?.arm) drawLimb(this.limb, colours, frame);
-    drawCurve(this.curve, colours, { seconds: length.steps / world.fps, binSeconds: length.bin / world.fps,
-      rewards: frame?.rewards ?? [], beside: second?.frame.rewards, lived: (frame?.step ?? 0) / world.fps,
-      band: this.presets[condition]?.band });
+    this.drawRates(colours);
     this.placeHandles();
     this.showKey();
     if (frame && !this.running()) this.part(".unseen").textContent = describe(frame);
@@ -257,6 +276,24 @@ class Controls {
       ? `${grouped(rate)} steps per second, ${grouped(rate / world.fps)} × real time` : "";
     const able = [frame?.seen.axes.length, true, this.hasCreeps()]; // the cells of contacts are not goals
     this.part(".said").textContent = this.sentences().join(" ") || HINTS.filter((_, hint) => able[hint]).join(" ");
+  }
+
+  /** Draw and write what the run has earned and met, and that of the second tank. */
+  drawRates(colours) {
+    const { condition, life: { frame, length, world, second } } = this;
+    const [frames, fps] = [[frame, second?.frame].filter(Boolean), world.fps];
+    const span = { seconds: length.steps / fps, binSeconds: length.bin / fps, lived: (frame?.step ?? 0) / fps };
+    const earned = frames.map(({ rewards }, tank) => ({ totals: rewards, colour: ["agent", "place"][tank] }));
+    drawCurves(this.curve, colours, span, earned.reverse(), this.presets[condition]?.band);
+    drawCurves(this.catches, colours, span, frames.flatMap(({ hits }, tank) => hits.map(({ kind, counts }) =>
+      ({ totals: counts, per: 60, colour: COLOUR_OF[kind] ?? "place", isDashed: tank > 0 }))));
+    const inWords = ({ hits }) => hits.map(({ kind, counts }) =>
+      `${kind} ${shown((ratesOf(counts, span, 60).rates.at(-1) ?? 0).toFixed(1))}`).join(", ");
+    const met = frames.map((each, tank) => `${second ? `${this.names()[tank]} ` : ""}${inWords(each)}`);
+    this.part(".of-catches").textContent = `${this.hasCreeps() ? "Caught" : "Met"} a minute: ${met.join(" · ")}`;
+    const wanted = new Set((frame?.wants ?? []).map(({ kind, valence }) => `${kind} ${signed(valence)}`));
+    const dropped = this.elements.map(({ valence }) => `element ${signed(valence)}`);
+    this.part(".wants").textContent = frame ? `Wants: ${[...wanted, ...dropped].join(", ")}` : "";
   }
 
   /** Show an arm large in its workspace, with joint space, where its cells are, beside it. */
@@ -298,7 +335,7 @@ class Controls {
       const same = Math.abs(totals[run] - frame.reward) < 1e-6 ? "the same" : "not the same";
       said.push(`The notebook computed ${shown(totals[run])} for this run: ${same}.`);
     }
-    if (game) said.push("Steer with the arrow keys; Escape leaves the game.");
+    if (game) said.push(STEER);
     if (seen.goal !== null) said.push(describeWay(frame));
     if (due?.news ?? news) said.push(due?.news ?? news);
     return said;

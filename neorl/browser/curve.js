@@ -1,13 +1,15 @@
-/* The curve of reward over the run, on a canvas of its own, drawn purely from its arguments, as in drawing.js. */
+/* Curves over the run, on a canvas of their own, drawn purely from their arguments, as in drawing.js. */
 
-/** Reward per second over the run. curve: {seconds, binSeconds, rewards (of bins), beside (of another run, or none),
- * lived (seconds), band or none}. */
-function drawCurve(canvas, colours, { seconds, binSeconds, rewards, beside, lived, band }) {
+const COLOUR_OF = { green: "green", target: "green", red: "red", obstacle: "red", vessel: "red" }; // of what is met
+
+/** Draw rates over the run. span: {seconds, binSeconds, lived (seconds)}; lines: {colour, totals (of bins), per (so many
+ * seconds, by default 1), isDashed}; band: of the reward of other runs, or none. */
+function drawCurves(canvas, colours, span, lines, band = null) {
   const board = { context: fittedContext(canvas), colours };
   const [left, top, right, bottom] = [34, 8, canvas.clientWidth - 8, canvas.clientHeight - 20];
-  const { edges, rates } = ratesOf(rewards, binSeconds, lived, seconds);
-  const others = beside ? ratesOf(beside, binSeconds, lived, seconds).rates : [];
-  const values = [0, 0.5, ...rates, ...others, ...(band ? [...band.low, ...band.high] : [])];
+  const { seconds } = span;
+  const curves = lines.map(({ totals, per = 1, ...line }) => ({ ...line, ...ratesOf(totals, span, per) }));
+  const values = [0, 0.5, ...curves.flatMap(({ rates }) => rates), ...(band ? [...band.low, ...band.high] : [])];
   const [least, most] = [Math.min(...values), Math.max(...values)];
   const [step, minutes] = [roundStep((most - least) / 3), roundStep(seconds / 240)];
   const xOf = (second) => left + ((right - left) * second) / seconds;
@@ -29,22 +31,24 @@ function drawCurve(canvas, colours, { seconds, binSeconds, rewards, beside, live
     fillPath(board, colours.ink, 0.2, (path) => addLine(path, outline));
     stroke(board, colours.ink, 1, 0.8, (path) => addLine(path, pointsOf(band.edges, band.middle)));
   }
-  for (const [colour, each] of [[colours.place, others], [colours.agent, rates]]) {
-    const points = pointsOf(edges, each);
+  for (const { colour, edges, rates, isDashed } of curves) {
+    const points = pointsOf(edges, rates);
     if (points.length) points.unshift([left, points[0][1]]); // from the first second
-    stroke(board, colour, 1.8, 1, (path) => addLine(path, points));
+    board.context.setLineDash(isDashed ? [4, 3] : []);
+    stroke(board, colours[colour], 1.8, 1, (path) => addLine(path, points));
   }
+  board.context.setLineDash([]);
 }
 
-/** Reward per second in each bin that has begun. The last, unfinished one is averaged over the full length of a bin,
- * and so reaches back into the bin before. */
-function ratesOf(rewards, binSeconds, lived, seconds) {
+/** The rate, per so many seconds, in each bin that has begun. The last, unfinished one is averaged over the full length
+ * of a bin, and so reaches back into the bin before. */
+function ratesOf(totals, { seconds, binSeconds, lived }, per = 1) {
   const bins = lived < 1 ? 0 : Math.ceil(Math.min(lived, seconds) / binSeconds - 1e-9);
   const edges = Array.from({ length: bins + 1 }, (_, bin) => Math.min(bin * binSeconds, lived, seconds));
   const rates = Array.from({ length: bins }, (_, bin) => {
     const [length, isOpen] = [edges[bin + 1] - edges[bin], bin === bins - 1 && lived < seconds];
-    if (!bin || !isOpen) return rewards[bin] / length;
-    return (rewards[bin] + (1 - length / binSeconds) * rewards[bin - 1]) / binSeconds;
+    if (!bin || !isOpen) return (per * totals[bin]) / length;
+    return (per * (totals[bin] + (1 - length / binSeconds) * totals[bin - 1])) / binSeconds;
   });
   return { edges, rates };
 }

@@ -91,8 +91,9 @@ function drawMap(board, cells, { active, seen: { goal } }) {
 }
 
 /** Draw the way to the chosen cell from every other, with arrows as long as the cells allow. */
-function drawWays(board, cells, { seen: { ways }, round }) {
-  drawVectors(board, board.colours.goal, 2.2, 1, ways, (cell) => cells.middle(cell), round);
+function drawWays(board, cells, { seen: { ways, goal, ofSelf }, round }) {
+  const leading = ofSelf ? ways : ways.map((side, i) => (Math.floor(i / 2) === goal ? 0 : side)); // none out of the goal
+  drawVectors(board, board.colours.goal, 2.2, 1, leading, (cell) => cells.middle(cell), round);
 }
 
 /** The receptive fields of a map in the world: their borders, the region of a cell, and its middle with its size. */

@@ -177,6 +177,17 @@ function leaveTrail() {
   run.trail = [...run.trail, { x, y, step: run.step }].filter(({ step }) => run.step - step <= TRAIL * run.world.fps);
 }
 
+/** Let a run go on for as long again. Its bins stay as many, each twice as long. */
+function extend() {
+  for (const [totals, width] of [[run.rewards, 1], [run.hits, run.sizes.kinds]]) {
+    const before = totals.slice();
+    totals.fill(0);
+    before.forEach((total, at) => { totals[width * Math.floor(at / width / 2) + (at % width)] += total; });
+  }
+  Object.assign(run, { steps: 2 * run.steps, bin_steps: 2 * run.bin_steps });
+  return frame();
+}
+
 function play({ action }) {
   if (action === null) run.player = null;
   else if (run.player) run.player.action = action;
@@ -213,6 +224,9 @@ function frame(steps = 0) {
     maps, shapes: maps.map((_, each) => shapeOf(each)), seen: seen(m), steps, agent, things: thingsOf(run),
     trail: run.trail, round: false, obstacles: [], ...VIEWS[world.name](run),
     player: player && { ...body(second), reward: player.reward },
+    hits: world.kinds.map((kind, k) => ({ kind, counts: run.hits.filter((_, i) => i % world.kinds.length === k) })),
+    wants: choices.desires.kind.flatMap((kind, e) =>
+      (kind < 0 ? [] : [{ kind: world.kinds[kind], valence: choices.desires.valence[e] }])),
     active: learnsContacts(m) ? [] : Array.from(state.tracks.cell.subarray(from, to), Number),
     nodes: choices.names.map((name, n) => ({ name, ...desire(n) })),
     landings: choices.edges.flatMap(({ source, target }, e) => (source === "" ? [] : [{
@@ -303,6 +317,7 @@ const REQUESTS = {
     return frame();
   },
   advance,
+  extend,
   play,
   drag,
 };

@@ -9,7 +9,8 @@ its traits, which are the controls.
   run k of a seed is the same as in `neorl.Run`. `views.js` defines what a frame shows of each world.
 - `drawing.js`, `movers.js` and `curve.js` draw; `page.js`, `legend.js`, `controls.js`, `hands.js` and `widget.js` are
   the interface; `starters.js` has things to try, `beside.js` the second tank, `tour.js` the guided tour,
-  `address.js` keeps the state in the page's address, and `shared.js` has one Explorer for all views of a widget.
+  `address.js` keeps the state in the page's address, `saving.js` saves what is shown, and `shared.js` has one Explorer
+  for all views of a widget.
 """
 
 import math
@@ -67,10 +68,12 @@ GROUPS = {"Start here": START_HERE, "The papers, calibrated": OF_THE_PAPERS, "Th
 AGENTS = {name: agent for agents in GROUPS.values() for name, agent in agents.items()}
 LABELS = {"Foveated cells, contacts alone": "Forager: foveated cells, contacts alone"}
 STEPS = 300_000  # of a run of an agent that is not a condition of the page
+LITTLE_HAPPENS = 120_000  # first steps of networks of desires, which the page runs at full speed
 AVOIDED = ("red", "obstacle", "vessel")  # the kinds whose valence has a control
 CURVE_BINS = 50
 SCRIPTS = ("settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js", "controls.js",
-           "hands.js", "starters.js", "beside.js", "tour.js", "address.js", "widget.js", "shared.js")
+           "hands.js", "starters.js", "beside.js", "tour.js", "address.js", "saving.js", "widget.js", "shared.js")
+CONTROLS = ("resolutions", "modality", "object_state", "recursion", "valence_red")
 
 
 def text_of(*names):
@@ -96,7 +99,8 @@ class Explorer(AnyWidget):
     recursion (None if there is none), valence_red (of obstacles or vessels in worlds where these are to be avoided),
     gains (one per node), exploration, learning_rate and discount (0 … 1), memory (≥ 0, in cells; 0 if it learns at
     every step), n_creeps (1 … 20; None outside WaterWorld), seed (below 2³²), run, speed (times real time, 0 for as
-    fast as possible), playing.
+    fast as possible), playing; and, from the beginning only, control: one of `neorl.browser.explorer.CONTROLS`, which
+    then stands beside the tank by itself, with the others folded, or by default "".
     Choosing a preset sets the traits that it determines. An agent that is not a condition is in the tank of the first
     condition in WaterWorld, or else in one with 3 creeps; an agent to the letter has the letter's steps per second and
     contacts; agents in the arena are in `neorl.Arena()`, and agents of other spaces in their own worlds.
@@ -130,6 +134,7 @@ class Explorer(AnyWidget):
     run = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
     speed = traitlets.Float(20.0, min=0).tag(sync=True)
     playing = traitlets.Bool(True).tag(sync=True)
+    control = traitlets.Unicode().tag(sync=True)
     seconds = traitlets.Float().tag(sync=True)
     score = traitlets.Float().tag(sync=True)
 
@@ -185,12 +190,13 @@ class Explorer(AnyWidget):
         _, world = self._lives[self.preset]
         return replace(world, n_creeps=self.n_creeps) if isinstance(world, WaterWorld) else world
 
-    @traitlets.validate("preset", "modality", "object_state", "recursion", "valence_red", "gains", "memory", "n_creeps")
+    @traitlets.validate("preset", "modality", "object_state", "recursion", "valence_red", "gains", "memory", "n_creeps",
+                        "control")
     def _check(self, proposal):
         name, value = proposal["trait"].name, proposal["value"]
         try:
-            if name == "preset":
-                return checks.one_of(name, value, tuple(self._presets))
+            if name in ("preset", "control"):
+                return checks.one_of(name, value, ("", *CONTROLS) if name == "control" else tuple(self._presets))
             if name == "modality":
                 own = self._lives[self.preset][0].nodes[0].goals == "contacts"
                 return checks.one_of(name, value, ("",) if own else ("", *self._modalities))
@@ -295,13 +301,19 @@ def _preset(name, agent, world, condition):
         "valence_red": agent.desires[red[0]].valence if red else 0.0,
         "recursion": agent.desires[recurring[0]].valence if recurring else None,
         "n_creeps": world.n_creeps if isinstance(world, WaterWorld) else None, "world": _world(world),
-        "steps": condition.steps if condition else STEPS,
+        "steps": condition.steps if condition else STEPS, "begins": _begins(agent, condition),
         "red": red, "avoided": agent.desires[red[0]].source if red else "", "recurring": recurring,
         "seed": condition.seed if condition else 0, "runs": result.runs if result else 0,
         "band": _band(result) if result else None, "totals": result.totals.tolist() if result else [],
         "changes": [{"step": step, "parameters": _parameters(later, world)}
                     for step, later in (condition.changes if condition else ())],
         "parameters": _parameters(agent, world)}
+
+
+def _begins(agent, condition):
+    """The step with which the page begins a run that is watched."""
+    is_network = any(agent.comes_from_node(each) for each in agent.desires)
+    return LITTLE_HAPPENS if is_network and (condition.steps if condition else STEPS) > LITTLE_HAPPENS else 0
 
 
 def _world(world):

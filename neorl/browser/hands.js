@@ -18,6 +18,10 @@ class Hands extends Controls {
     });
   }
 
+  showTank() {
+    this.part(".board canvas").scrollIntoView({ block: "nearest" });
+  }
+
   placeOf({ clientX, clientY }) {
     const { left, top, width } = this.arena.getBoundingClientRect();
     const [x, y] = [clientX - left, clientY - top].map((offset) => clampedToBoard(placeAt(offset / width)));
@@ -84,6 +88,7 @@ class Hands extends Controls {
     if (key === "Escape" && game) return this.leaveGame();
     if (!onMark && !onTank || (action === undefined && !["Enter", " ", "Escape", "Delete"].includes(key))) return null;
     if (onMark && ["Enter", " "].includes(key)) return null;
+    if (key === " ") return event.preventDefault(), this.togglePlay();
     if (key === "Escape" && this.dropping) this.dropping = false, this.refresh();
     event.preventDefault();
     if (key === "Escape") return this.arena.focus(), this.select(null), life.cursor = null, this.look({ goal: null });
@@ -110,8 +115,8 @@ class Hands extends Controls {
     this.part(".marks").lastChild.focus();
   }
 
-  addElement(place) {
-    this.elements.push({ ...place, valence: 1 });
+  addElement(element) {
+    this.elements.push({ valence: 1, ...element });
     this.placeHandles();
     this.note("elements");
   }

@@ -15,9 +15,17 @@ const STATES = { self: "the self (goal: the object's cell)", "per object": "the 
 const AVOIDED = { red: "red", obstacle: "obstacles", vessel: "vessels" };
 const WHOLE = ({ min, max }) => `Whole numbers from ${min} to ${max} are allowed here.`;
 const STOPPED = "The simulation has stopped. Reset restarts it.";
-const HINTS = ["Click a cell to see the way to it.", "Double-click or double-tap to drop an element of interest.",
+const [CLICK, STEER] = matchMedia("(pointer: coarse)").matches
+  ? ["Tap", "Steer with the four buttons."] : ["Click", "Steer with the arrow keys; Escape leaves the game."];
+const HINTS = [`${CLICK} a cell to see the way to it.`, `Double-${CLICK.toLowerCase()} to drop an element of interest.`,
   "Drag the creeps."];
-const WHERE = "Click where to drop the element of interest.";
+const WHERE = `${CLICK} where to drop the element of interest.`;
+const HELP = { // for a control that stands beside the tank by itself
+  resolutions: "Cells along each side of a map. An agent has one map per number; other numbers begin a new run.",
+  modality: "What the cells are tuned to. Another modality begins a new run.",
+  object_state: "What an object-vector map learns. Another state begins a new run.",
+  recursion: "The weight with which a desire is passed back to its own node. It changes at once, without relearning.",
+  valence_red: "What the agent wants. It changes at once, without relearning." };
 
 const slide = (name, label, least, most, step) => `<label class="slide"><span>${label}</span><input type="range"
   name="${name}" min="${least}" max="${most}" step="${step}"><output></output></label>`;
@@ -30,42 +38,46 @@ const press = (action, label) => `<button type="button" data-action="${action}">
 const chip = (n) => `<button type="button" data-chip="${n}" aria-label="Resolution ${n}">${n}</button>`;
 const pad = (key) => `<button type="button" data-key="Arrow${key.slice(0, -2)}" aria-label="${key.slice(0, -2)}">
   ${key.at(-1)}</button>`;
+const graph = (kind, title, label) => `<p class="title of-${kind}">${title}</p><canvas class="${kind}" role="img"
+  aria-label="${label}"></canvas>`;
+// The tank comes first, also for the keyboard.
 const pageOf = (id) => `<p role="alert" hidden></p>
-  <div class="starters buttons" role="group" aria-label="Things to try">${press("tour", "Take the tour")}
-    ${press("compare", "Newborn beside veteran")}${press("watch", "Watch it learn")}
-    ${press("red", "Make red desirable half-way")}${press("corner", "Show the way to a corner")}
-    ${press("game", "Play against it")}</div>
-  <div class="bar">${choice("preset", "Agent")}<div class="buttons">${press("play", "Play")}${press("step", "Step")}
-    ${press("new-run", "New run")}${press("reset", "Reset")}</div>
-    ${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
-  <div class="columns"><div class="board"><p class="lived"></p>
+  <div class="columns"><div class="board"><p class="lived"></p><p class="wants"></p>
     <div class="tanks"><div class="first"><p class="named" hidden></p>
       <div class="space"><p class="title" hidden>Joint space: first joint across, second down</p>
-      <div class="arena"><canvas tabindex="0" role="application" aria-describedby="${id}" aria-label="The world. Arrow
-      keys move a cursor, Enter chooses the cell under it, Escape deselects it."></canvas><div class="grips"></div>
-      <div class="marks"></div>
-      <div class="pad" hidden>${["Up ↑", "Left ←", "Down ↓", "Right →"].map(pad).join("")}</div></div></div></div>
+      <div class="arena"><canvas tabindex="0" role="application" aria-describedby="${id}" aria-label="The world. Space
+      plays and pauses; arrow keys move a cursor, Enter chooses the cell under it, Escape deselects it."></canvas>
+      <div class="grips"></div><div class="marks"></div></div></div></div>
       <div class="second" hidden><p class="named"></p><canvas role="img" aria-label="The second tank"></canvas></div></div>
+    <div class="pad" hidden>${["Left ←", "Up ↑", "Down ↓", "Right →"].map(pad).join("")}</div>
+    <div class="buttons">${press("play", "Play")}${press("go-on", "Go on")}${press("step", "Step")}
+      ${press("new-run", "New run")}${press("reset", "Reset")}${press("tour", "Take the tour")}</div>
     <div class="versus" hidden>${choice("beside", "Second tank")}${choice("learned", "has learned for")}</div>
     <p class="unseen" id="${id}"></p><p class="said"></p>
+    <div class="starters buttons" role="group" aria-label="Things to try">${press("compare", "Newborn beside veteran")}
+      ${press("watch", "Watch it learn")}${press("red", "Make red desirable half-way")}
+      ${press("corner", "Show the way to a corner")}${press("game", "Play against it")}</div>
     <div class="element" hidden>${slide("element-valence", "Its valence", -2, 2, 0.1)}
       ${press("delete", "Delete")}</div>
-    <div class="buttons">${press("drop", "Drop an element")}${press("clear", "Clear all")}
-      ${press("link", "Copy link")}</div>
+    <div class="tools buttons">${press("drop", "Drop an element")}${press("clear", "Clear all")}
+      ${press("link", "Copy link")}${press("picture", "Save picture")}${press("csv", "Save as CSV")}
+      ${press("alone", "Tank only")}</div>
     <div class="shown">${choice("map", "Map shown")}</div>
     <div class="shown">${tick("field", "Arrows", "checked")}${tick("heat", "Value", "")}
       ${tick("trail", "Trail", "checked")}</div></div>
-  <ul class="key" aria-label="What the tank shows"></ul>
   <div class="side"><div class="limb" hidden><p class="title">Workspace: the plane in which the arm moves</p>
     <canvas role="img" aria-label="The arm in the plane, with the points that it seeks and avoids"></canvas></div>
-    <p class="title">Reward per second</p>
-    <canvas class="curve" role="img" aria-label="Reward per simulated second over the run, in minutes"></canvas>
-    <p class="legend"></p><p class="pace"></p>${choice("modality", "Modality")}
-    ${choice("object_state", "State of object vectors")}
-    <label class="labelled"><span>Resolutions</span><input type="text" name="resolutions" autocomplete="off"></label>
-    <div class="chips" role="group" aria-label="Resolutions">${[2, 3, 5, 7, 11, 13].map(chip).join("")}</div>
-    ${slide("recursion", "Recursion", -3, 1, 0.1)}${slide("valence_red", "Valence of red", -2, 2, 0.1)}</div></div>
-  <div class="open">${number("open-run", "Open run")}${choice("open-preset", "of")}${press("open", "Open")}</div>
+    <div class="bar">${choice("preset", "Agent")}${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
+    ${graph("curve", "Reward per second", "Reward per simulated second over the run, in minutes")}
+    ${graph("catches", "Met a minute", "What the agent meets in a simulated minute, by kind, over the run")}
+    <p class="legend"></p><p class="pace"></p>
+    <div class="settings">${choice("modality", "Modality")}${choice("object_state", "State of object vectors")}
+    <div class="setting"><label class="labelled"><span>Resolutions</span><input type="text" name="resolutions"
+      autocomplete="off"></label>
+    <div class="chips" role="group" aria-label="Resolutions">${[2, 3, 5, 7, 11, 13].map(chip).join("")}</div></div>
+    ${slide("recursion", "Weight of recursion", -3, 1, 0.1)}${slide("valence_red", "Valence of red", -2, 2, 0.1)}
+    <div class="open">${number("open-run", "Open run")}<span class="of"></span>${press("open", "Open")}</div></div></div>
+  <ul class="key" aria-label="What the tank shows"></ul></div>
   <p class="refused" role="status"></p>
   <details><summary>More</summary><div class="more">${slide("exploration", "Exploration ε", 0, 1, 0.01)}
     ${slide("learning_rate", "Learning rate α", -3, 0, 0.01)}

@@ -18,13 +18,30 @@ function problemOfStart(preset, start) {
 }
 
 class Starters extends Hands {
-  /** A new run with the settings of the preset, and with an action that is due later, if any. */
-  fresh(values = {}, due = null) {
+  /** A new run with the settings of the preset and nothing of what was tried before: with an action that is due later,
+   * another agent beside it, and elements, if any. */
+  fresh(values = {}, due = null, { beside = null, elements = [] } = {}) {
     const key = this.model.get("preset");
     this.dropElements();
-    this.due = due;
-    this.write({ ...initialSettings(this.presets, key), seed: this.presets[key].seed, run: 0, ...values });
-    this.note("run");
+    Object.assign(this, { due, beside, elements });
+    if (!beside) this.stopSecond();
+    for (const name of ["field", "heat", "trail"]) this.control(name).checked = this.control(name).defaultChecked;
+    const settings = { ...initialSettings(this.presets, key), seed: this.presets[key].seed, run: 0, speed: this.pace };
+    this.write({ ...settings, ...values });
+    for (const name of ["run", "elements"]) this.note(name);
+  }
+
+  /** What is due at the beginning of a run of an agent to which little happens at first, or null. */
+  beginningOf(preset) {
+    const { begins, world: { fps } } = this.presets[preset] ?? { world: {} };
+    const minutes = Math.round(begins / fps / 60);
+    const [before, after] = ["begin at full speed, since networks learn slowly", "were at full speed"].map((each) =>
+      `The first ${minutes} minutes ${each}. “Watch it learn” shows them.`);
+    const act = () => {
+      this.life.news = after;
+      this.refresh();
+    };
+    return begins ? { step: begins, hurries: true, act, news: before } : null;
   }
 
   watch() {

@@ -1,5 +1,5 @@
 /* A guided tour of a few stops. Each points at a part of the page and operates the controls as a reader would; it starts
-only when asked to, and after its end everything stays as it is. */
+only when asked to, and at its end the reader is back at the moment from which it started. */
 
 const STOPS = [
   { at: ".space", act: (page) => page.beginTourRun(),
@@ -16,13 +16,15 @@ const STOPS = [
   { at: `[data-action="drop"]`, act: (page) => page.addElement({ x: 0.25, y: 0.25 }),
     text: "Now something to desire at the top left, worth +1. It counts at once, with what was learned before. Drag it "
       + "about, or drop more." },
-  { at: ".versus", act: (page) => page.compareOnTour(),
+  { at: ".versus", act: (page) => page.meetVeteran(),
     text: "Two tanks, one seed: the newborn begins without knowledge, the veteran has learned for 100 minutes. The menus "
       + "below the tanks set any other agent beside the first." },
 ];
 
 class Tour extends Beside {
   startTour() {
+    const { model } = this;
+    this.left ??= { address: this.addressOfNow(true), speed: model.get("speed"), playing: model.get("playing") };
     this.showStop(0);
     this.action("next").focus({ preventScroll: true });
   }
@@ -37,6 +39,8 @@ class Tour extends Beside {
     this.part(".tour").hidden = true;
     this.part(".pointed")?.classList.remove("pointed");
     this.action("tour").focus({ preventScroll: true });
+    const { address, ...values } = this.left;
+    this.visit(address, values);
   }
 
   showStop(index) {
@@ -49,6 +53,7 @@ class Tour extends Beside {
     const acted = act(this);
     const pointed = this.part(at).closest("label") ?? this.part(at);
     pointed.classList.add("pointed");
+    pointed.closest("details")?.setAttribute("open", "");
     for (const each of [this.part(".board canvas"), pointed]) each.scrollIntoView({ block: "nearest" });
     return acted;
   }
@@ -60,7 +65,6 @@ class Tour extends Beside {
       const { steps, avoided, parameters: { nodes } } = presets[key] ?? { parameters: {} };
       return steps > 2 * LEARNED && avoided === "red" && !nodes.learns_contacts.some(Boolean);
     });
-    this.compare(null);
     this.fresh({ ...initialSettings(presets, preset), seed: presets[preset].seed, playing: false });
   }
 
@@ -74,11 +78,5 @@ class Tour extends Beside {
   showValue() {
     this.control("heat").checked = true;
     return this.look(this.layers());
-  }
-
-  compareOnTour() {
-    this.clearElements(); // what pays is the same for both
-    this.write({ speed: 20 });
-    this.compare(VETERAN);
   }
 }

@@ -10,25 +10,36 @@
 - Every failure ends the run with a message. The next change of a control tries again; Reset does so with the settings
   of the preset. */
 
-class Explorer extends Address {
+class Explorer extends Saving {
   /** places: those of the model's views, of which the Explorer stands in the last one. */
   constructor(model, places) {
     super();
     Object.assign(this, { model, places, presets: model.get("_presets"), modalities: model.get("_modalities"),
-      first: model.get("preset"), life: newLife(), elements: [], beside: null, selected: null, noted: new Set(),
-      undo: [], drawn: 0, told: 0, failed: false });
+      first: model.get("preset"), pace: Math.max(0, model.get("speed")), life: newLife(), elements: [], beside: null, selected: null,
+      noted: new Set(), undo: [], drawn: 0, told: 0, failed: false });
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     const id = `neorl-tank-${Math.random().toString(36).slice(2)}`; // each widget of a page has a module of its own
     this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer", innerHTML: pageOf(id) });
-    [this.arena, this.second, this.limb, this.curve] = this.root.querySelectorAll("canvas");
+    [this.arena, this.second, this.limb, this.curve, this.catches] = this.root.querySelectorAll("canvas");
     this.fillMenus();
     places.at(-1).append(this.root);
+    this.choosePart();
+    this.due = this.beginningOf(this.first);
     this.listen();
     if (this.calm) this.write({ playing: false });
     this.arrive();
     this.refresh();
     const { top, height } = this.root.getBoundingClientRect();
     this.approach({ isIntersecting: height > 0 && top < innerHeight }); // before the page is first painted, not after
+  }
+
+  /** Begin with one control beside the tank, or, on a page about the Explorer, with all and the page's first agent. */
+  choosePart() {
+    const { model, presets } = this;
+    const whole = this.root.closest(".neorl-whole");
+    const first = whole && orderedKeys(presets).find((key) => presets[key].is_condition);
+    if (first) this.write(initialSettings(presets, this.first = first));
+    else if (!whole && model.get("control")) this.putFirst(model.get("control"));
   }
 
   listen() {
@@ -43,19 +54,22 @@ class Explorer extends Address {
     };
     on(this.root, "input change", (event) => this.turned(event));
     on(this.root, "click", ({ target, detail }) => this.clicked(target.closest("button")?.dataset ?? {}, detail));
+    on(this.part(".starters"), "click", () => this.showTank());
     on(this.root, "keydown", (event) => this.pressed(event));
     on(this.root, "focusin", ({ target }) => target.matches(".interest") && this.select(indexOf(target)));
     const tank = this.part(".arena");
-    on(tank, "pointerdown", (event) => this.grasp(event));
+    for (const part of [tank, this.part(".pad")]) {
+      on(part, "pointerdown", (event) => this.grasp(event));
+      on(part, "pointerup pointercancel keyup focusout", () => this.life.game && (this.life.game.held = NO_ACTION));
+    }
     on(tank, "pointermove", (event) => this.pull(event));
-    on(tank, "pointerup pointercancel keyup focusout", () => this.life.game && (this.life.game.held = NO_ACTION));
     on(tank, "lostpointercapture", () => { this.life.held = null; });
     on(tank, "pointerleave", () => { this.life.pointer = null; });
     on(tank, "click", (event) => this.tap(event));
     on(window, "hashchange", ({ newURL }) => this.hasAddress() && this.visit(new URL(newURL).hash));
     on(document, "click", (event) => this.followLink(event));
     on(document, "visibilitychange", () => this.refresh());
-    this.undo.push(watchLook([this.arena, this.second, this.limb, this.curve], () => this.wake()));
+    this.undo.push(watchLook([...this.root.querySelectorAll("canvas")], () => this.wake()));
     watch(new IntersectionObserver((entries) => this.approach(entries.at(-1)), { rootMargin: "200px" }));
     watch(new IntersectionObserver((entries) => this.sight(entries.at(-1))));
     for (const name of [...NEW_RUN, ...GOES_ON, "speed", "playing"]) {
@@ -93,7 +107,7 @@ class Explorer extends Address {
       if (noted.has("preset") && presets[model.get("preset")] && !OF_PRESET.some((name) => noted.has(name))) {
         this.write(initialSettings(presets, model.get("preset"))); // as if chosen from the menu
       }
-      if (noted.has("preset")) this.dropElements();
+      if (noted.has("preset") && !noted.has("elements")) this.dropElements();
       const problem = problemOf(presets, modalities, model);
       this.complain(problem);
       if (problem || !this.near) break;
@@ -102,7 +116,7 @@ class Explorer extends Address {
       if (names.some((name) => name !== "near")) this.forgive();
       const before = this.condition;
       this.condition = conditionOf(model.get("_layout").plane, presets, modalities, this.settings());
-      if (this.condition && this.condition !== before) this.offerRuns(this.condition);
+      if (this.condition !== before || !before) this.offerRuns();
       this.showControls();
       if (!this.engine || names.some((name) => NEW_RUN.includes(name))) await this.begin();
       else if (names.some((name) => name === "elements" || GOES_ON.includes(name))) await this.change();
@@ -125,12 +139,14 @@ class Explorer extends Address {
     const [{ steps, band }, seed, run] = [presets[model.get("preset")], model.get("seed"), model.get("run")];
     const [world, bin] = [worldOf(presets, this.settings()), band?.steps_per_bin ?? Math.ceil(steps / 50)];
     const changes = this.condition === model.get("preset") ? presets[this.condition].changes : [];
-    this.life = newLife({ world, length: { steps, bin }, changes, changed: this.elements.length > 0, due: this.due });
+    const times = 2 ** Math.max(0, Math.ceil(Math.log2((this.due?.step ?? 0) / steps))); // as if it had gone on
+    const length = { steps: times * steps, bin: times * bin };
+    this.life = newLife({ world, length, changes, changed: this.elements.length > 0, due: this.due });
     this.due = null;
     this.refresh();
     this.engine ??= startEngine(model, (message) => this.fail(message));
-    const begun = this.ask({ type: "begin", parameters: this.parameters(), world, seed, run, steps, bin_steps: bin,
-      changes, map: this.control("map").value, ...this.layers() });
+    const begun = this.ask({ type: "begin", parameters: this.parameters(), world, seed, run, steps: length.steps,
+      bin_steps: length.bin, changes, map: this.control("map").value, ...this.layers() });
     await this.beginSecond();
     this.take(await begun);
     await this.meet();
@@ -148,6 +164,7 @@ class Explorer extends Address {
     const changed = this.ask({ type: "change", parameters: this.parameters() });
     await this.changeSecond();
     this.take(await changed);
+    if (life.frame.ended) await this.goOn(); // or the change would show nothing
   }
 
   /** Show another map, goal or place, with or without the field. Has no effect while a run loads. */

@@ -63,7 +63,9 @@ def test_a_newborn_runs_beside_a_veteran_as_in_python(page):
     wait_for(page, step="0", state="paused")
     expect(page.locator(".second, .versus")).to_have_count(2)
     expect(page.locator(".second")).to_be_hidden()
-    press(page, "compare")
+    visit(page, "#explorer_agent-places_run-2_beside-places_learned-100_minute-0")
+    wait_for(page, step="0", secondStep="0", state="paused")
+    press(page, "play")
     wait_for(page, step="20000", secondStep="20000", state="ended")
     first, second = newborn(PLACES, run=2).advance(20_000), veteran(PLACES, 100, run=2).advance(20_000)
     assert scores(page) == (first, second) and first != second
@@ -71,6 +73,32 @@ def test_a_newborn_runs_beside_a_veteran_as_in_python(page):
     expect(page.locator(".told")).to_contain_text(re.compile(r"minutes · Newborn: [−\d]+ · Veteran: [−\d]+\."))
     expect(page.locator(".legend")).to_contain_text("Veteran")
     page.wait_for_function("location.hash.endsWith('_beside-places_learned-100')")
+
+
+def turn(page, name, value):
+    page.locator(f'[name="{name}"]').evaluate("""(control, value) => {
+        control[control.type === "checkbox" ? "checked" : "value"] = value;
+        control.dispatchEvent(new Event("input", { bubbles: true }));
+    }""", value)
+
+
+@pytest.mark.parametrize("before", [
+    lambda page: press(page, "red"), lambda page: turn(page, "valence_red", "1"), lambda page: press(page, "game"),
+    lambda page: turn(page, "heat", True), drop_by_keyboard])
+def test_the_newborn_and_the_veteran_differ_in_nothing_but_experience_whatever_was_tried_before(page, before):
+    visit(page, "#explorer_agent-places_minute-1")
+    wait_for(page, step=str(MINUTE), state="paused")
+    before(page)
+    press(page, "compare")
+    expect(page.locator('[name="speed"]')).to_have_attribute("aria-valuetext", "10× real time")
+    turn(page, "speed", "10")
+    wait_for(page, step=str(2 * MINUTE), secondStep=str(2 * MINUTE), state="paused")
+    first, second = scores(page)
+    assert (first, second) == (newborn(PLACES).advance(2 * MINUTE), veteran(PLACES, 100).advance(2 * MINUTE))
+    ahead = "veteran" if second >= first else "newborn"
+    expect(page.locator(".said")).to_contain_text(f"the {ahead} is {abs(second - first):g} ahead.")
+    expect(page.locator(".wants")).to_have_text("Wants: green +1, red −1")
+    expect(page.locator('[name="heat"]')).not_to_be_checked()
 
 
 def test_any_other_agent_of_such_a_world_stands_in_the_menus_and_in_the_address(page):
@@ -156,7 +184,7 @@ def test_a_choice_made_while_the_veteran_learns_begins_at_once(page):
     wait_for(page, step="0", state="paused")
     page.evaluate("""() => {
         const root = document.querySelector(".neorl-explorer");
-        root.querySelector('[data-action="compare"]').click();
+        location.hash = "#explorer_agent-places_beside-places_learned-100";
         setTimeout(() => Object.assign(root.querySelector('[name="preset"]'), { value: "things" }).dispatchEvent(
             new Event("input", { bubbles: true })), 60);
     }""")

@@ -9,11 +9,12 @@ from playwright.sync_api import expect
 from neorl import Explorer
 from neorl.browser.explorer import AGENTS
 
-SEED, LOADS = 13, 200
+SEED, LOADS, ACTIONS = 13, 200, 60
 
 # Clicks wherever a reader can click, from before an agent is chosen in the menu until it has loaded. A click on the
 # tank goes to the topmost element at that point, as in a browser.
-CLICKS = """async ({ loads, seed }) => {
+RANDOM = """
+  Element.prototype.requestFullscreen = async () => undefined; // only a reader may do that
   const random = () => { // mulberry32
     seed = (seed + 0x6d2b79f5) | 0;
     let mixed = Math.imul(seed ^ (seed >>> 15), 1 | seed);
@@ -23,6 +24,12 @@ CLICKS = """async ({ loads, seed }) => {
   const one = (list) => list[Math.floor(random() * list.length)];
   const pause = (longest) => new Promise((resolve) => setTimeout(resolve, random() * longest));
   const root = document.querySelector(".neorl-explorer");
+  const check = (said) => {
+    const alert = root.querySelector("[role=alert]");
+    if (!alert.hidden || root.dataset.state === "failed") throw new Error(`${said}: ${alert.textContent}`);
+  };
+"""
+CLICKS = "async ({ loads, seed }) => {" + RANDOM + """
   const control = (name) => root.querySelector(`[name="${name}"]`);
   const turn = (target) => target.dispatchEvent(new Event("input", { bubbles: true }));
   const clickTank = () => {
@@ -44,11 +51,38 @@ CLICKS = """async ({ loads, seed }) => {
       one(acts)();
       clicks += 1;
       await pause(5);
-      const alert = root.querySelector("[role=alert]");
-      if (!alert.hidden) throw new Error(`Load ${load}, ${menu.value}, click ${clicks}: ${alert.textContent}`);
+      check(`Load ${load}, ${menu.value}, click ${clicks}`);
     } while (root.dataset.state === "loading");
   }
   return clicks;
+}"""
+
+# Anything that a reader can do, one after the other: menus, sliders, fields, buttons, keys, and the tank.
+ACTS = "async ({ actions, seed }) => {" + RANDOM + """
+  const done = [];
+  root.querySelector("summary").click();
+  const act = (target) => {
+    const turn = (value, type) => target.dispatchEvent(new Event(type, { bubbles: true }, target.value = value));
+    if (target.matches("select")) return turn(one([...target.options]).value, "input");
+    if (target.type === "range") return turn(Number(target.min) + random() * (target.max - target.min), "input");
+    if (target.type === "number") return turn(one(["3", "0", "-1", "5000000000"]), "change");
+    if (target.type === "text") return turn(one(["3", "2, 5", "0", "x", "12 4"]), "change");
+    if (!target.matches("canvas, .grip")) return target.click();
+    const { left, top, width, height } = target.getBoundingClientRect();
+    const at = { bubbles: true, clientX: left + random() * width, clientY: top + random() * height };
+    const key = one(["Enter", " ", "Escape", "ArrowLeft", "ArrowUp"]);
+    const events = [new MouseEvent("click", at), new KeyboardEvent("keydown", { ...at, key })];
+    return target.dispatchEvent(one(events));
+  };
+  for (let action = 1; action <= actions; action += 1) {
+    const targets = [...root.querySelectorAll("select, input, button, canvas[tabindex], .grip")];
+    const target = one(targets.filter((each) => !each.disabled && each.checkVisibility()));
+    done.push(target.name || target.dataset.action || target.className || target.localName);
+    act(target);
+    await pause(200);
+    check(`${done.join(", ")} (action ${action})`);
+  }
+  return done.length;
 }"""
 
 
@@ -63,6 +97,11 @@ def explorer(open_page, tmp_path):
 
 def test_clicks_at_random_while_agents_are_loaded_do_no_harm(explorer):
     assert explorer.evaluate(CLICKS, {"loads": LOADS, "seed": SEED}) > LOADS
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_actions_at_random_do_no_harm(explorer, seed):
+    assert explorer.evaluate(ACTS, {"actions": ACTIONS, "seed": seed}) == ACTIONS
 
 
 def test_requests_to_the_previous_run_are_not_answered(explorer):

@@ -77,17 +77,16 @@ def test_the_menu_of_agents_is_in_groups_and_begins_with_the_forager(open_page, 
 
 def test_runs_of_the_agent_that_is_watched_are_offered(open_page, site):
     page = open_page(*site("D"), "file")
-    menu = page.locator('[name="open-preset"]')
-    expect(menu).to_have_value("D")
-    page.locator('[name="preset"]').select_option("places")
-    expect(menu).to_have_value("places")
+    expect(page.locator(".open")).to_contain_text(f"of {SIZE['runs']}, as behind the figure")
+    page.locator('[name="preset"]').select_option("Network D")
+    expect(page.locator(".open")).to_be_hidden()
 
 
 @pytest.mark.parametrize("name, run", [("both", 7), ("places", 11), ("joins", 4), ("turned", 2), ("D", 0)])
 def test_a_run_opened_by_its_number_ends_with_the_score_of_python(open_page, site, conditions, name, run):
     page = open_page(*site("both", seed=99))
     explorer = explorer_of(page)
-    page.locator('[name="open-preset"]').select_option(name)
+    page.locator('[name="preset"]').select_option(name)
     page.locator('[name="open-run"]').fill(str(run))
     press(page, "open")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 0")

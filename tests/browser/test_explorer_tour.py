@@ -35,8 +35,12 @@ def test_it_starts_only_when_asked_to(page):
     expect(page.locator(".tour")).to_be_hidden()
 
 
-def test_its_stops_operate_the_controls_and_leave_everything_as_it_is(page):
+def test_its_stops_operate_the_controls_and_at_its_end_the_reader_is_where_it_started(page):
+    page.evaluate("location.hash = '#explorer_agent-short_red-0p5_minute-0p1'")
+    wait_for(page, "state === 'paused' && step === '300'")
+    page.evaluate("document.body.insertAdjacentHTML('beforeend', '<button id=pst-back-to-top>Top</button>')")
     page.locator('[data-action="tour"]').press("Enter")
+    expect(page.locator("#pst-back-to-top")).to_be_hidden()
     panel, status = page.get_by_role("region", name="Guided tour"), page.locator(".tour [role=status]")
     expect(status).to_contain_text("1 of 6: The blue disc is the agent.")
     expect(page.locator('[name="preset"]')).to_have_value(FIT)
@@ -66,14 +70,19 @@ def test_its_stops_operate_the_controls_and_leave_everything_as_it_is(page):
     page.keyboard.press("Enter")
     expect(status).to_contain_text("6 of 6: Two tanks, one seed")
     expect(page.locator(".interest")).to_have_count(0)
-    wait_for(page, "Number(secondStep) > 500 && secondStep === step")
+    wait_for(page, "Number(secondStep) > 100 && secondStep === step")
     expect(page.locator(".named")).to_have_count(2)
 
     panel.get_by_role("button", name="Done").press("Enter")
     expect(panel).to_be_hidden()
     expect(page.locator('[data-action="tour"]')).to_be_focused()
     expect(page.locator(".pointed")).to_have_count(0)
-    expect(page.locator(".second")).to_be_visible()
+    expect(page.locator(".second")).to_be_hidden()
+    expect(page.get_by_label("Value", exact=True)).not_to_be_checked()
+    wait_for(page, "state === 'paused' && step === '300'")
+    expect(page.locator('[name="preset"]')).to_have_value("short")
+    expect(page.locator('[name="valence_red"]')).to_have_value("0.5")
+    expect(page.locator('[name="speed"]')).to_have_attribute("aria-valuetext", "20× real time")
 
 
 @pytest.mark.parametrize("leave", ["Escape", "Stop"])

@@ -91,7 +91,14 @@ def test_reset_restores_the_settings_and_a_new_run_keeps_them(visit):
     press(page, "new-run")
     expect(page.locator('[name="run"]')).to_have_value("1")
     expect(page.locator('[name="valence_red"]')).to_have_value("2")
+    press(page, "compare")
+    expect(page.locator(".second")).to_be_visible()
+    page.locator('[name="heat"]').check()
+    page.locator('[name="speed"]').fill("2")
     press(page, "reset")
+    expect(page.locator(".second")).to_be_hidden()
+    expect(page.locator('[name="heat"]')).not_to_be_checked()
+    expect(page.locator('[name="speed"]')).to_have_value("10")
     expect(page.locator('[name="run"]')).to_have_value("0")
     expect(page.locator('[name="valence_red"]')).to_have_value("-1")
     expect(page.locator('[name="resolutions"]')).to_have_value("5, 3")
@@ -143,8 +150,9 @@ def test_the_address_of_a_moment_leads_back_to_it(visit):
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 500")
     press(page, "play")
     page.wait_for_function("""() => {
-        const minute = (document.querySelector('.neorl-explorer').dataset.step / 3000).toFixed(5);
-        return location.hash.endsWith(`_minute-${Number(minute)}`.replace(".", "p"));
+        const { step } = document.querySelector('.neorl-explorer').dataset;
+        const [minute, second] = [Math.floor(step / 3000), (step % 3000) / 50];
+        return location.hash.endsWith(`_minute-${minute}` + (second ? `_second-${second}`.replace(".", "p") : ""));
     }""")  # not the address of an earlier moment
     before = {name: shown(page, name) for name in ("step", "score")}
     assert "_red-0p5" in page.url and "_run-4" in page.url

@@ -1,0 +1,47 @@
+/* What a reader takes along: a link, a picture of the tank, the run as a table; and the tank alone on the screen. */
+
+class Saving extends Address {
+  async copyLink() {
+    const link = new URL(this.addressOfNow(true), location.href).href;
+    if (this.hasAddress()) history.replaceState(history.state, "", link);
+    const copied = await navigator.clipboard?.writeText(link).then(() => "Link copied.", () => null)
+      ?? "The address of the page is the link.";
+    const but = "This run was changed on the way: the link begins it anew, with the present settings";
+    const drops = this.elements.length ? ", and drops the elements at this moment" : "";
+    this.life.news = this.life.changed ? `${copied} ${but}${drops}.` : copied;
+    this.refresh();
+  }
+
+  savePicture() {
+    const { arena, elements, life: { frame } } = this;
+    const [colours, context] = [readColours(this.root), arena.getContext("2d")];
+    drawArena(arena, colours, frame, { trail: this.control("trail").checked, elements });
+    context.resetTransform();
+    Object.assign(context, { globalCompositeOperation: "destination-over", globalAlpha: 1, fillStyle: colours.paper });
+    context.fillRect(0, 0, arena.width, arena.height);
+    context.globalCompositeOperation = "source-over";
+    arena.toBlob(this.safely((picture) => this.save(picture, "png")));
+    this.wake();
+  }
+
+  /** Save a table with a row for each point of the curves: its second, and what was earned and met up to it. */
+  saveRun() {
+    const { frame, length: { bin }, world: { fps } } = this.life;
+    const head = ["second", "reward", ...frame.hits.map(({ kind }) => kind)];
+    const rows = Array.from({ length: Math.ceil(frame.step / bin) }, (_, at) =>
+      [Math.min(frame.step, (at + 1) * bin) / fps, frame.rewards[at], ...frame.hits.map(({ counts }) => counts[at])]);
+    this.save(new Blob([[head, ...rows].join("\n"), "\n"], { type: "text/csv" }), "csv");
+  }
+
+  save(blob, ending) {
+    const href = URL.createObjectURL(blob);
+    const name = `${slug(this.model.get("preset"))}-run-${this.model.get("run")}.${ending}`;
+    Object.assign(document.createElement("a"), { href, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(href), 10_000); // the browser reads it later
+  }
+
+  async showAlone() {
+    await this.root.requestFullscreen().catch(() => null); // a browser may refuse it
+    this.arena.focus();
+  }
+}

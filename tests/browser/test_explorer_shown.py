@@ -1,0 +1,271 @@
+"""What the Explorer says and saves of a run, how it is operated, and where its parts stand."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from explorer_page import COLOURS, drop_by_keyboard, explorer_of, picture, press, wait, write_page
+from matplotlib import pyplot as plt
+from playwright.sync_api import expect
+from traitlets import TraitError
+
+from neorl import Desire, Explorer, Place, Run, WaterWorld, place_cells, simulate
+from neorl.browser.explorer import LITTLE_HAPPENS
+
+TANK, PLACES = WaterWorld(), place_cells([5, 3])
+SIZE = {"steps": 20_000, "runs": 12, "seed": 3, "progress": False}
+DATA = "document.querySelector('.neorl-explorer').dataset"
+
+
+@pytest.fixture(scope="module")
+def conditions():
+    return {"places": simulate(PLACES, TANK, **SIZE)}
+
+
+@pytest.fixture
+def visit(open_page, tmp_path, conditions):
+    """`visit(address, options of the context, trait=value)` opens a page with an Explorer at an address."""
+    def visit(address="", options=None, **traits):
+        write_page(tmp_path, [Explorer(conditions, **{"playing": False, "speed": 0.0} | traits)])
+        page = open_page(tmp_path, f"page.html{address}", **options or {})
+        wait(page, "paused|running|ended")
+        return page
+    return visit
+
+
+def run_of(agent=PLACES):
+    return Run(agent, TANK, SIZE["seed"])
+
+
+def wait_for_score(page, steps, score):
+    page.wait_for_function(f"([step, score]) => Number({DATA}.step) === step && Number({DATA}.score) === score",
+                           arg=[steps, float(score)])
+
+
+def bottom(box):
+    return box["y"] + box["height"]
+
+
+def test_what_it_wants_is_said_and_follows_the_settings(visit):
+    page = visit()
+    wants = page.locator(".wants")
+    expect(wants).to_have_text("Wants: green +1, red −1")
+    page.locator('[name="valence_red"]').fill("0.5")
+    expect(wants).to_have_text("Wants: green +1, red +0.5")
+    drop_by_keyboard(page)
+    page.locator('[name="element-valence"]').fill("2")
+    expect(wants).to_have_text("Wants: green +1, red +0.5, element +2")
+    page.locator('[name="preset"]').select_option("Water maze, platform moved")
+    expect(wants).to_have_text("Wants: platform +1")
+
+
+def test_what_is_caught_is_said_by_colour_and_saved_with_the_reward(visit, conditions):
+    page = visit()
+    press(page, "play")
+    wait(page, "ended")
+    result, band = conditions["places"], Explorer(conditions)._presets["places"]["band"]
+    begins = np.flatnonzero(np.isin(result.edges[:-1], band["edges"][:-1]))
+    hits, rewards = (np.add.reduceat(each[0], begins, axis=0) for each in (result.hits, result.rewards))
+    last = 60 * hits[-1] / np.diff(band["edges"])[-1]
+    expect(page.locator(".of-catches")).to_have_text(f"Caught a minute: green {last[0]:.3g}, red {last[1]:.3g}")
+    with page.expect_download() as download:
+        press(page, "csv")
+    assert download.value.suggested_filename == "places-run-0.csv"
+    head, *rows = download.value.path().read_text().splitlines()
+    assert head == "second,reward,green,red"
+    saved = np.array([row.split(",") for row in rows], float)
+    assert np.array_equal(saved, np.column_stack([band["edges"][1:], rewards, hits]))
+
+
+def test_what_was_caught_before_a_change_of_the_agent_s_maps_still_counts(visit, tmp_path, open_page):
+    joins = simulate(PLACES, TANK, changes=[(10_000, place_cells([5, 3, 2]))], **SIZE)
+    write_page(tmp_path, [Explorer({"joins": joins}, playing=False, speed=0.0)])
+    page = open_page(tmp_path, "page.html")
+    wait(page, "paused")
+    press(page, "play")
+    wait(page, "ended")
+    with page.expect_download() as download:
+        press(page, "csv")
+    counted = np.genfromtxt(download.value.path(), delimiter=",", skip_header=1)[:, 2:].sum(axis=0)
+    assert counted.tolist() == joins.hits[0].sum(axis=0).tolist()
+
+
+def test_a_picture_has_the_tank_with_its_elements_on_the_colour_of_the_page(visit):
+    page = visit()
+    greens = []
+    for _ in range(2):
+        with page.expect_download() as download:
+            press(page, "picture")
+        saved = plt.imread(download.value.path())
+        assert np.all(saved[0, 0] == 1)
+        middle = saved[len(saved) // 2 - 20:len(saved) // 2 + 20]
+        greens.append(np.sum(np.all(abs(255 * middle[..., :3] - COLOURS["green"]) < 2, axis=-1)))
+        drop_by_keyboard(page)
+    assert greens[0] < greens[1]
+
+
+def test_a_run_that_is_over_goes_on_also_when_a_setting_is_changed(visit):
+    page = visit()
+    press(page, "play")
+    wait(page, "ended")
+    press(page, "go-on")
+    run = run_of()
+    score = run.advance(40_000)
+    wait_for_score(page, 40_000, score)
+    page.locator('[name="valence_red"]').fill("1")
+    run.change(replace(PLACES, desires=[replace(each, valence=1.0) for each in PLACES.desires]))
+    wait_for_score(page, 80_000, score + run.advance(40_000))
+
+
+def test_a_link_leads_beyond_the_first_end_of_a_run(visit):
+    page = visit("#explorer_minute-10_second-0p5")
+    wait_for_score(page, 30_025, run_of().advance(30_025))
+
+
+def test_a_link_has_what_was_dropped_and_says_what_it_leaves_out(visit):
+    dropped = "#explorer_agent-places_run-0_minute-2_elements-0p25-0p75--1p5-0p5-0p5-1"
+    page = visit(dropped)
+    expect(page.locator(".interest")).to_have_text(["−1.5", "+1"])
+    desires = [Desire(Place(0.25, 0.75), "PC", -1.5), Desire(Place(0.5, 0.5), "PC", 1.0)]
+    press(page, "link")
+    expect(page.locator(".said")).to_contain_text("the link begins it anew, with the present settings, and drops")
+    page.wait_for_function("hash => location.hash === hash", arg=dropped)
+    press(page, "play")
+    run = run_of()
+    score = run.advance(6_000)
+    run.change(replace(PLACES, desires=[*PLACES.desires, *desires]))
+    wait_for_score(page, 20_000, score + run.advance(14_000))
+    for wrong in ("0p5-0p5", "0p5-2-1", "0p5-0p5-1-" * 5 + "0p5-0p5-1"):
+        page.evaluate("hash => { location.hash = hash; }", f"#explorer_elements-{wrong}")
+        expect(page.locator(".refused")).to_contain_text("Its elements must be at most 5")
+        expect(page.locator(".interest")).to_have_count(2)
+        page.evaluate("document.querySelector('.refused').textContent = ''")
+
+
+def test_the_tank_is_the_first_stop_of_the_keyboard_and_space_plays_and_pauses(visit):
+    page = visit(speed=1.0)
+    page.locator("body").press("Tab")
+    tank = page.locator(".arena canvas")
+    expect(tank).to_be_focused()
+    for state in ("running", "paused"):
+        page.keyboard.press("Space")
+        wait(page, state)
+    top, text = tank.bounding_box()["y"], page.locator(".wants").bounding_box()
+    assert top - 4 >= bottom(text)  # the ring of the focus is below the text
+
+
+def test_the_tank_alone_fills_the_screen(visit):
+    page = visit()
+    before = page.locator(".arena").bounding_box()["width"]
+    press(page, "alone")
+    page.wait_for_function("document.fullscreenElement?.matches('.neorl-explorer')")
+    expect(page.locator(".side")).to_be_hidden()
+    box = page.locator(".arena").bounding_box()
+    assert box["width"] > before and bottom(box) <= page.viewport_size["height"]
+    expect(page.locator(".arena canvas")).to_be_focused()
+    page.evaluate("document.exitFullscreen()")
+    expect(page.locator(".side")).to_be_visible()
+
+
+@pytest.mark.parametrize("name", ["resolutions", "seed"])
+def test_the_reason_of_a_refusal_stands_below_its_field(visit, name):
+    page = visit()
+    page.locator("summary").click()
+    field = page.locator(f'[name="{name}"]')
+    field.fill("x" if name == "resolutions" else "-1")
+    field.press("Enter")
+    message = page.locator(".refused")
+    expect(message).to_contain_text("hole numbers from")
+    assert 0 <= message.bounding_box()["y"] - bottom(field.bounding_box()) < 60
+
+
+@pytest.mark.parametrize("chosen", [True, False])
+def test_networks_begin_where_something_happens(visit, chosen):
+    page = visit(playing=True, **{} if chosen else {"preset": "Network D"})
+    if chosen:
+        page.locator('[name="preset"]').select_option("Network D")
+    page.wait_for_function(f"Number({DATA}.step) >= {LITTLE_HAPPENS}")
+    expect(page.locator(".said")).to_contain_text("The first 40 minutes were at full speed")
+    press(page, "reset")
+    page.wait_for_function(f"Number({DATA}.step) < {LITTLE_HAPPENS}")
+
+
+def test_each_agent_stands_in_one_menu(visit):
+    page = visit()
+    options = page.locator("select:visible option").all_inner_texts()
+    assert "places" in options and len(options) == len(set(options))
+
+
+def test_no_slider_of_a_single_node_is_without_effect(visit):
+    page = visit()
+    page.locator("summary").click()
+    expect(page.locator('[name="gain-0"]')).to_be_hidden()
+    page.locator('[name="preset"]').select_option("Network D")
+    expect(page.locator('[name="gain-0"]')).to_be_visible()
+
+
+def test_on_a_phone_the_buttons_of_the_game_stand_below_the_tank(visit):
+    page = visit(options={"viewport": {"width": 400, "height": 800}, "has_touch": True, "is_mobile": True})
+    press(page, "game")
+    expect(page.locator(".said")).to_contain_text("Steer with the four buttons.")
+    pad, tank = (page.locator(each).bounding_box() for each in (".pad", ".arena"))
+    assert pad["y"] >= bottom(tank) and pad["height"] < 60
+
+
+def test_no_way_leads_out_of_the_chosen_cell(visit):
+    page = visit("#explorer_minute-6_map-pc-n5_goal-12")
+    page.wait_for_function(f"{DATA}.goal === '12' && {DATA}.state === 'paused'")
+    picture(page)
+    arrows = page.locator(".arena canvas").evaluate("""canvas => {
+        const { width } = canvas;
+        const copy = Object.assign(document.createElement("canvas"), { width, height: width });
+        const context = copy.getContext("2d", { willReadFrequently: true });
+        context.drawImage(canvas, 0, 0);
+        const inside = (column, row) => {
+            const [side, edge] = [width / 1.11, 0.055 * width / 1.11];
+            const [left, top] = [column, row].map((each) => Math.round(edge + side * (each + 0.1) / 5));
+            const length = Math.round(0.16 * side);
+            const { data } = context.getImageData(left, top, length, length);
+            let count = 0;
+            for (let at = 0; at < data.length; at += 4) {
+                count += data[at + 3] > 200 && data[at] === 0xa0 && data[at + 1] === 0x3f && data[at + 2] === 0xb5;
+            }
+            return count;
+        };
+        return [0, 1, 2, 3, 4].map((row) => inside(2, row));
+    }""")
+    assert arrows[2] == 0 and sum(arrows) > 50
+
+
+@pytest.mark.parametrize("control, preset", [("resolutions", "places"), ("modality", "places"),
+                                             ("recursion", "Network D")])
+def test_one_control_stands_beside_the_tank_and_the_others_are_folded(visit, control, preset):
+    page = visit(preset=preset, control=control)
+    explorer_of(page)
+    field = page.locator(f'.only [name="{control}"]')
+    tank, box = (each.bounding_box() for each in (page.locator(".arena"), field))
+    assert box["x"] > tank["x"] + tank["width"] and abs(box["y"] - tank["y"]) < 100
+    expect(page.locator("select:visible, input:visible:not([type=checkbox])")).to_have_count(2)  # it, and the maps
+    page.get_by_text("All controls").click()
+    expect(page.locator('[name="speed"]')).to_be_visible()
+    if control == "recursion":
+        field.fill("0.5")
+        page.wait_for_function(f"{DATA}.condition === ''")
+        expect(field.locator("xpath=..")).to_contain_text(re.compile("Weight of recursion.*0.5", re.DOTALL))
+
+
+def test_a_page_about_the_explorer_has_all_controls_and_its_first_agent(visit, tmp_path, open_page, conditions):
+    write_page(tmp_path, [Explorer(conditions, "Network D", control="recursion", playing=False)])
+    path = tmp_path / "page.html"
+    path.write_text(path.read_text().replace('<body style="width: 700px">', '<body class="neorl-whole">'))
+    page = open_page(tmp_path, "page.html")
+    wait(page, "paused")
+    expect(page.locator('[name="preset"]')).to_have_value("places")
+    expect(page.locator('[name="speed"]')).to_be_visible()
+    expect(page.locator(".only")).to_have_count(0)
+
+
+def test_python_refuses_another_control():
+    with pytest.raises(TraitError, match="control must be '', 'resolutions', 'modality', "):
+        Explorer(control="speed")
