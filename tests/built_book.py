@@ -13,7 +13,13 @@ HTML = Path(__file__).parent.parent / "_build" / "html"
 BOTH_MODALITIES = "Paper B, figure 5: place + object-vector cells"
 PAGES = {"explorer.html": BOTH_MODALITIES,
          "chapters/paper_a.html": "Paper A, figure 7: all three maps",
-         "chapters/paper_b.html": BOTH_MODALITIES, "chapters/paper_c.html": "Paper C, figure 4e: network D"}
+         "chapters/paper_b.html": "Paper B, figure 4A: place cells, all",
+         "chapters/paper_c.html": "Paper C, figure 4e: network D"}
+SHIFTS = """new Promise(resolve => {  // of the layout, until now
+    new PerformanceObserver(list => resolve(list.getEntries().reduce((sum, { value }) => sum + value, 0))).observe(
+        { type: "layout-shift", buffered: true });
+    setTimeout(resolve, 500, 0);
+})"""
 pytestmark = pytest.mark.skipif(not HTML.exists(), reason="no book: run make book first")
 
 
@@ -26,9 +32,11 @@ def test_the_explorer_of_a_page_starts_and_reruns_the_runs_of_its_figures(open_p
     page.wait_for_selector("[data-state=running], [data-state=ended]")
     assert explorer.get_attribute("data-condition") == PAGES[name]
     page.wait_for_function("Number(document.querySelector('.neorl-explorer').dataset.step) > 100")
-    options = page.locator('[name="open-preset"] option').all_inner_texts()
+    page.locator(".neorl-explorer summary").click()
+    menu = page.locator('[name="preset"]')
+    options = menu.locator("optgroup[label='On this page'] option").all_inner_texts()
     for condition in (PAGES[name], options[-1]):
-        page.locator('[name="open-preset"]').select_option(condition)
+        menu.select_option(condition)
         page.locator('[name="open-run"]').fill("1")
         page.locator('[data-action="open"]').click()
         page.wait_for_selector(f'.neorl-explorer[data-condition="{condition}"]')
@@ -42,10 +50,25 @@ def test_the_front_page_is_light_and_stands_still(open_page):
     loaded = page.evaluate("""() => ["resource", "navigation"].flatMap(kind => performance.getEntriesByType(kind))
         .filter(entry => !entry.name.startsWith("blob:")).map(entry => entry.encodedBodySize)""")
     assert sum(loaded) <= 1_200_000
-    shifts = page.evaluate("""() => new Promise(resolve => new PerformanceObserver(list => resolve(
-        list.getEntries().reduce((sum, entry) => sum + entry.value, 0)
-    )).observe({type: "layout-shift", buffered: true}))""")
-    assert shifts < 0.1
+    assert page.evaluate(SHIFTS) < 0.1
+
+
+@pytest.mark.parametrize("size", [(1200, 800), (1920, 1080), (400, 800)])
+def test_the_tank_of_the_explorer_s_page_is_on_its_first_screen_and_stands_still(open_page, size):
+    page = open_page(HTML, "explorer.html", viewport={"width": size[0], "height": size[1]})
+    page.wait_for_selector("[data-state=running], [data-state=ended]")
+    tank = page.locator(".arena").bounding_box()
+    assert 0 < tank["y"] and tank["y"] + tank["height"] <= size[1]
+    assert page.evaluate(SHIFTS) < 0.05
+    page.locator("#pst-skip-link + .skip-link a").press("Enter")
+    page.keyboard.press("Tab")
+    expect(page.locator(".arena canvas")).to_be_focused()
+
+
+def test_without_scripts_the_explorer_s_page_has_a_picture_and_a_sentence(open_page):
+    page = open_page(HTML, "explorer.html", java_script_enabled=False)
+    expect(page.locator("noscript img")).to_be_visible()
+    expect(page.get_by_text("it needs JavaScript")).to_be_visible()
 
 
 @pytest.mark.parametrize("width", [1200, 400])
