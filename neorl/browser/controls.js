@@ -39,8 +39,7 @@ class Controls {
     this.touched = true;
     if (kind === "number" && !target.checkValidity()) return this.refuse(target, WHOLE(target));
     if (kind === "number") this.forgive();
-    const act = { resolutions: () => this.writeResolutions(target),
-      preset: () => this.chooseAgent(value),
+    const act = { resolutions: () => this.writeResolutions(target), preset: () => this.chooseAgent(value),
       modality: () => this.write({ modality: value }), object_state: () => this.write({ object_state: value }),
       speed: () => this.write({ speed: SPEEDS[value] }),
       learning_rate: () => this.write({ learning_rate: power(value) }), "open-run": () => null,

@@ -39,6 +39,7 @@ class Tour extends Beside {
     this.part(".tour").hidden = true;
     this.part(".pointed")?.classList.remove("pointed");
     this.action("tour").focus({ preventScroll: true });
+    if (!this.left) return; // another link has been followed since
     const { address, ...values } = this.left;
     this.visit(address, values);
   }

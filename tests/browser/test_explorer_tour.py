@@ -98,6 +98,15 @@ def test_it_can_be_left_at_any_stop(page, leave):
     expect(page.locator('[data-action="tour"]')).to_be_focused()
 
 
+def test_a_link_that_is_followed_on_the_way_is_not_taken_back_at_the_end(page):
+    press(page, "tour")
+    page.evaluate("location.hash = '#explorer_agent-short_start-veteran'")
+    expect(page.locator(".second")).to_be_visible()
+    page.get_by_role("button", name="Stop", exact=True).click()
+    wait_for(page, "step === '1000' && secondStep === '1000'")
+    expect(page.locator(".said")).to_contain_text("ahead.")
+
+
 @pytest.mark.parametrize("width", [400, 1200])
 def test_what_a_stop_points_at_is_on_the_screen_and_not_below_the_tour(page, width):
     page.set_viewport_size({"width": width, "height": 800})
