@@ -168,18 +168,6 @@ def test_the_tank_alone_fills_the_screen(visit):
     expect(page.locator(".side")).to_be_visible()
 
 
-@pytest.mark.parametrize("name", ["resolutions", "seed"])
-def test_the_reason_of_a_refusal_stands_below_its_field(visit, name):
-    page = visit()
-    page.locator("summary").click()
-    field = page.locator(f'[name="{name}"]')
-    field.fill("x" if name == "resolutions" else "-1")
-    field.press("Enter")
-    message = page.locator(".refused")
-    expect(message).to_contain_text("hole numbers from")
-    assert 0 <= message.bounding_box()["y"] - bottom(field.bounding_box()) < 60
-
-
 @pytest.mark.parametrize("chosen", [True, False])
 def test_networks_begin_where_something_happens(visit, chosen):
     page = visit(playing=True, **{} if chosen else {"preset": "Network D"})

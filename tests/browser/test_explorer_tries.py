@@ -117,7 +117,7 @@ def test_an_element_drops_where_the_next_click_is(visit):
 
 @pytest.mark.parametrize("name, typed, kept", [
     ("resolutions", "0, 3", "5, 3"), ("seed", "-1", "3")])
-def test_refused_input_reverts_to_the_last_valid_value(visit, name, typed, kept):
+def test_refused_input_reverts_to_the_last_valid_value_and_the_reason_stands_below_it(visit, name, typed, kept):
     page = visit()
     page.locator("summary").click()
     field = page.locator(f'[name="{name}"]')
@@ -125,7 +125,9 @@ def test_refused_input_reverts_to_the_last_valid_value(visit, name, typed, kept)
     field.press("Enter")
     expect(field).to_have_value(kept)
     expect(field).to_have_attribute("aria-invalid", "true")
-    expect(page.locator(".refused")).to_contain_text("hole numbers from")
+    message = page.locator(".refused")
+    expect(message).to_contain_text("hole numbers from")
+    assert 0 < message.bounding_box()["y"] - field.bounding_box()["y"] < 100  # below the field
     field.fill("7")
     field.press("Enter")
     expect(field).not_to_have_attribute("aria-invalid", "true")
