@@ -11,6 +11,7 @@
 # make lab    open the notebooks in JupyterLab, which saves pages without outputs
 # make record record the claims of the last build, of RUNS=100 and either reading, in the file that book and README show
 # make readme write the recorded claims into the README
+# make pictures draw the star again, the README's moving picture and the front page's still one
 # make bench  measure the speed of the kernels
 # make wheel build the wheel to publish, dist/*.whl, which carries the kernels as WebAssembly modules
 # make clean  remove all that these made, and nothing else
@@ -49,7 +50,7 @@ page = $(1:%=$(CHAPTERS)/%.ipynb)
 .DEFAULT_GOAL := book
 # Files that are replaced only by complete ones, so make need not remove them when it is interrupted.
 .PRECIOUS: $(HTML) $(call page,$(NAMES))
-.PHONY: book test package deep exact pages verify fuzz lab record readme bench wheel clean FORCE
+.PHONY: book test package deep exact pages verify fuzz lab record readme pictures bench wheel clean FORCE
 
 book: .venv/ready
 	@$(MAKE) --no-print-directory --keep-going --jobs=$(JOBS) $(HTML)
@@ -73,7 +74,7 @@ $(CHAPTERS)/.parameters: FORCE
 	@echo "$(RUNS) $(STEPS) $(READING)" | cmp -s - $@ || echo "$(RUNS) $(STEPS) $(READING)" > $@
 
 $(CHAPTERS)/claims-table.md: $(call page,$(TOGETHER) $(filter $(NAMES),$(TIMED) $(CONCLUSION))) $(wildcard book/*.py) \
-    $(wildcard book/*.toml) book/_toc.yml $(wildcard book/record.*)
+    $(wildcard book/*.toml book/star.*) book/_toc.yml $(wildcard book/record.*)
 	@$(BIN)/python book/tables.py
 
 # Readers of the last book have it until the next is complete.
@@ -121,6 +122,9 @@ record: .venv/ready
 
 readme: .venv/ready
 	$(BIN)/python book/readme.py
+
+pictures: .venv/ready
+	$(BIN)/python book/moving.py
 
 bench: .venv/ready
 	$(BIN)/python -m pytest --benchmark-only --benchmark-disable-gc tests/benchmarks.py

@@ -81,6 +81,29 @@ def figure(record):
     return "".join([*parts, "</table>"])
 
 
+def summary(record):
+    """The figure, small: in each block the verdicts of its claims as symbols, under both readings, as an HTML table."""
+    heads = "".join(f'<th scope="col">{head}</th>' for head in ("Claims", "To the letter", "Calibrated"))
+    rows = []
+    for title, names in BLOCKS.items():
+        cells = []
+        for found in (record["letter"], record["claims"]):
+            count = counts({"claims": found}, [name for name in names if name in found])
+            symbols = "".join(f'<span class="{marks.MARKS[each].css}">{marks.symbol(each) * count[each]}</span>'
+                              for each in count)
+            words = ", ".join(f"{number} {verdict}" for verdict, number in count.items())
+            shown = f'<span role="img" aria-label="{words}" title="{words}">{symbols}</span>' if count else ""
+            cells.append(f"<td>{shown}</td>")
+        rows.append(f'<tr><th scope="row"><a href="claims.html">{title}</a></th>{"".join(cells)}</tr>')
+    return f'<table class="summary"><thead><tr>{heads}</tr></thead><tbody>{"".join(rows)}</tbody></table>'
+
+
+def counts(record, names):
+    """The number of some claims with each verdict: {verdict: count}, without verdicts that none has."""
+    found = Counter(report.verdict(record, name) for name in names)
+    return {verdict: found[verdict] for verdict in marks.MARKS if found[verdict]}
+
+
 def _row(record, name):
     share, cell = _share(record, name), ""
     if share >= 0:

@@ -1,8 +1,13 @@
-"""The table of contents in pictures: the first figure of each computed page, with the title of the page, as a grid."""
+"""The table of contents in pictures: the title of each computed page, its first figure and the figure's question.
+
+The question is the first sentence of the caption, and says what the eye can find in the picture.
+"""
 
 import re
 
 import nbformat
+
+MOST_BYTES = 40_000  # of a picture
 
 
 def pictures(toc, chapters):
@@ -21,8 +26,16 @@ def card(name, page, chapters):
     title = re.match(r"# (.+)", page.cells[0].source)[1]
     for cell in page.cells:
         shown = cell.metadata.get("mystnb", {})
-        figure = f"{shown.get('figure', {}).get('name')}-small.svg"
-        if (chapters / figure).exists():
+        figure = chapters / f"{shown.get('figure', {}).get('name')}-small.svg"
+        if figure.exists():
+            picture = [f":img-top: chapters/{figure.name}", f":img-alt: {shown['image']['alt']}"]
             return "\n".join([":::{grid-item-card}", f":link: chapters/{name}", ":link-type: doc",
-                              f":img-top: chapters/{figure}", f":img-alt: {shown['image']['alt']}", "", title, ":::"])
+                              *(picture if figure.stat().st_size <= MOST_BYTES else []), "", f"**{title}**", "",
+                              question(shown["figure"]["caption"]), ":::"])
     return ""
+
+
+def question(caption):
+    """The first sentence of a caption, without its links and terms."""
+    text = re.sub(r"\{\w+\}`([^`<]+?)(?: <[^>]*>)?`|\[([^]]+)\]\([^)]*\)", lambda link: link[1] or link[2], caption)
+    return re.match(r".+?[.?!](?=\s|$)", text)[0]

@@ -40,6 +40,8 @@ def small(figure):
         x, y, width, height = (float(frame.get(each)) for each in ("x", "y", "width", "height"))
         root.set("viewBox", f"{x:g} {y:g} {width:g} {height:g}")
         root.attrib |= {"width": f"{width:g}pt", "height": f"{height:g}pt"}
+    for path in root.iter(f"{{{SVG}}}path"):
+        path.set("d", re.sub(r"\d+\.\d+", lambda number: f"{float(number[0]):.1f}", path.get("d")))
     ElementTree.register_namespace("", SVG)
     return ElementTree.tostring(root, encoding="unicode")
 

@@ -2,9 +2,9 @@
 
 1. The page answers first (`answer.py`), and then has a line for each claim: the number that decides, here and in the
    thesis, and the verdict. A click opens what the verdict rests on.
-2. The first page has the headline of the answer, and a strip with a square for each claim.
+2. The first page has the headline of the answer, and a small figure of the verdicts.
 3. All of it shows the committed record (`record.py`). A build says in a sentence how its own verdicts compare.
-4. Pages are MyST Markdown. The figure, the strips and the lines are HTML, since they have a shape of their own.
+4. Pages are MyST Markdown. Figures and lines are HTML, since they have a shape of their own.
 """
 
 from collections import Counter
@@ -12,7 +12,7 @@ from html import escape
 
 import curves
 import levels
-from answer import APART, CAPTION, dependence, figure, headline, runs, sections
+from answer import APART, CAPTION, counts, dependence, figure, headline, runs, sections, summary
 from companion.page import marks, report
 from companion.page.opening import anchor
 from companion.study import sensitivity
@@ -46,15 +46,13 @@ def legend(record):
 
 
 def front(record):
-    """What was found, as HTML for the first page. record: see `headline`."""
-    return f'<p class="result">{headline(record)}</p>\n'
-
-
-def squares(record, build):
-    """The strips of claims, the meaning of their symbols, and how a build compares, as HTML for the first page."""
-    strips = [strip(record, some, "claims.html") for some in (AGENTS, APART)]
-    lines = [f"<p>{legend(record)}</p>", f"<p>{beside(record, build)}</p>" * (build is not record)]
-    return "\n".join([*strips, *lines]) + "\n"
+    """What was found, as HTML for the first page: the headline, its figure, and claim T1, which the star is about."""
+    link = f'<a href="claims.html#{anchor("T1")}">claim T1</a>'
+    verdict = report.verdict(record, "T1")
+    return "\n".join([
+        f'<p class="result">{headline(record)}</p>', summary(record), f"<p>{legend(record)}</p>",
+        f"<p>One run in a page decides nothing. {STATEMENTS['T1'].text}: as {link} this is {marks.html(verdict)}\u00a0"
+        f"{marks.explained(verdict)} in the calibrated reading.</p>"]) + "\n"
 
 
 def beside(record, build):
@@ -69,26 +67,6 @@ def beside(record, build):
         parts.append(f"{len(others)} different ({', '.join(others)})")
     return (f"Recorded on {record['date']} with commit {record['commit']}. This build, {runs(build)} runs: "
             f"{', '.join(parts)}.")
-
-
-def counts(record, names):
-    """The number of some claims with each verdict: {verdict: count}, without verdicts that none has."""
-    found = Counter(report.verdict(record, name) for name in names)
-    return {verdict: found[verdict] for verdict in marks.MARKS if found[verdict]}
-
-
-def strip(record, names, address=""):
-    """An HTML list with a square for each of some claims, its symbol in its colour, that links to the claim.
-
-    address: of the page of claims, relative to the page with the strip.
-    """
-    squares = []
-    for name in names:
-        verdict = report.verdict(record, name)
-        mark, text = marks.MARKS[verdict], escape(f"{name}, {verdict}: {STATEMENTS[name].text}")
-        squares.append(f'<li><a class="{mark.css}" href="{address}#{anchor(name)}" title="{text}" aria-label="{text}">'
-                       f"{name}<span>{mark.symbol}</span></a></li>")
-    return f'<ul class="claims-strip" aria-label="Verdict of each claim">{"".join(squares)}</ul>'
 
 
 def _claim(record, name, of_table):

@@ -1,4 +1,5 @@
-"""Write what the book's other pages include of the computed ones: claims, rules, errata, and contents in pictures."""
+"""Write what the book's other pages include of the computed ones: claims, rules, errata, contents in pictures, and
+the star."""
 
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # has w
 import contents
 import ledger
 import rules
+import star
 from compute import CHAPTERS, ROOT, records
 from companion.page import report
 from record import of_book
@@ -21,7 +23,7 @@ def of_claims(paths, chapters):
     build, toc = report.load(paths), (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
     record = of_book(build)
     return {"claims-rules.md": rules.page(), "claims-front.html": ledger.front(record),
-            "claims-squares.html": ledger.squares(record, build), "errata-table.md": report.errata(),
+            "star.html": star.page(), "errata-table.md": report.errata(),
             "contents.md": contents.pictures(toc, chapters), "claims-table.md": ledger.page(record, build)}
 
 

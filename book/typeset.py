@@ -1,4 +1,4 @@
-"""Sphinx extension: pages stand still while they load, load no script in vain, and break lines in the right places."""
+"""Sphinx extension: how pages look while they load, or without scripts, and where their lines break."""
 
 from pathlib import Path
 
@@ -6,12 +6,18 @@ from docutils import nodes
 from sphinx.util.images import get_image_size
 
 MARKS = ".,;:?!)’"
+VIEW = '<script type="application/vnd.jupyter.widget-view+json">'
+UNSCRIPTED = """<div class="unscripted"><img src="{}" width="480" height="252" loading="lazy"
+alt="A board of 7 × 7 cells, each with an arrow towards a goal, and an agent among green and red discs">
+<p>A picture of what runs here in a browser with JavaScript.</p></div>
+"""
 
 
 def setup(app):
     app.add_node(nodes.image, override=True, html=(visit_image, None))
     app.connect("doctree-resolved", keep_marks)
     app.connect("html-page-context", lighten, priority=900)  # after all others have added their scripts
+    app.connect("html-page-context", picture_widgets)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
@@ -40,3 +46,10 @@ def lighten(app, page, template, context, doctree):
     """Remove the script for formulas from a page without any; Sphinx leaves it where a page below has some."""
     if doctree is None or not any(doctree.findall(lambda node: isinstance(node, nodes.math | nodes.math_block))):
         context["script_files"] = [each for each in context["script_files"] if "mathjax" not in str(each)]
+
+
+def picture_widgets(app, page, template, context, doctree):
+    """Put a picture and a sentence before each widget, for readers without scripts and on paper (book.css)."""
+    if "body" in context:
+        picture = UNSCRIPTED.format(context["pathto"]("_static/card.png", 1))
+        context["body"] = context["body"].replace(VIEW, picture + VIEW)

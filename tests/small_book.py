@@ -50,13 +50,14 @@ def make_tree(tree):
         shutil.copytree(ROOT / "notebooks" / "companion" / room, tree / "notebooks" / "companion" / room)
     shutil.copy(ROOT / "notebooks" / "companion" / "__init__.py", tree / "notebooks" / "companion")
     shutil.copy(ROOT / "Makefile", tree)
-    for path in [*(ROOT / "book").glob("*.py"), *(ROOT / "book").glob("*.toml")]:
+    for path in (each for kind in ("py", "toml", "js", "html") for each in (ROOT / "book").glob(f"*.{kind}")):
         shutil.copy(path, tree / "book")  # links would lead the build to the real tree
     (tree / "neorl").mkdir()  # pages depend on the sources here, but import the real package
-    compiled = cache_folder().resolve() / "compiled"
-    compiled.mkdir(parents=True, exist_ok=True)
     (tree / ".cache").mkdir()
-    (tree / ".cache" / "compiled").symlink_to(compiled)
+    for name in ("compiled", "wasm"):
+        shared = cache_folder().resolve() / name
+        shared.mkdir(parents=True, exist_ok=True)
+        (tree / ".cache" / name).symlink_to(shared)
     for name, content in {"_config.yml": CONFIG, "pyproject.toml": "[project]\n", "environment.txt": "",
                           "book/_toc.yml": TOC, "book/index.md": INDEX, "book/running.md": "# Running it\n",
                           "book/glossary.md": "# Glossary\n\n```{glossary}\nmap\n  Cells.\n```\n"}.items():

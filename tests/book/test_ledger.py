@@ -108,15 +108,12 @@ def test_a_panel_of_a_specification_curve_has_all_readings_and_what_agrees_apart
     assert not re.search(r"nan|inf", shown) and shown.count(">calibrated<") == shown.count(">letter<") == 2
 
 
-def test_every_square_of_the_strips_leads_to_its_claim():
-    squares = re.findall(r'<a class="([\w-]+)" href="claims.html#([\w-]+)" title="(\w+), ([^:]+): [^"]*"',
-                         ledger.squares(RECORD, RECORD))
-    assert [name for *_, name, _ in squares] == [*AGENTS, *ledger.APART]
-    page = ledger.page(RECORD, RECORD)
-    assert all(page.count(f'<div id="{place}">') == 1 for _, place, *_ in squares)
-    assert ("verdict-reproduced", "claim-c2", "C2", "reproduced") in squares
-    assert ("verdict-none", "claim-a6", "A6", "undecided") in squares
-    assert ("verdict-none", "claim-a1", "A1", "not computed in this build") in squares
+def test_the_small_figure_has_a_symbol_for_each_claim_that_a_reading_judges():
+    rows = [re.findall(r'aria-label="([^"]*)"', row) for row in answer.summary(RECORD).split("<tr>")[2:]]
+    assert rows == [["1 reproduced, 1 partly", "1 reproduced, 2 contradicted, 1 undecided"], ["1 reproduced"],
+                    ["2 reproduced, 1 refuted by proof"]]
+    assert '>●</span><span class="verdict-contradicted">○○</span>' in answer.summary(RECORD)
+    assert 'claims.html#claim-t1">claim T1</a>' in ledger.front(RECORD)
 
 
 def test_one_headline_stands_on_all_pages_and_counts_what_was_used_to_choose_the_reading_apart():
@@ -144,7 +141,7 @@ def test_a_build_says_how_its_verdicts_compare_with_the_record():
     del build["claims"]["T3"]
     words = (f"Recorded on 2026-12-01 with commit abc1234. This build, 10 runs: {len(CLAIMS) - 3} the same, 1 "
              "undecided, 1 without a verdict, 1 different (B1 partly).")
-    assert words in ledger.squares(RECORD, build) and words in ledger.page(RECORD, build)
+    assert words in ledger.page(RECORD, build)
     assert ledger.beside(RECORD, RECORD) == ""
 
 
