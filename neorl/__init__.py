@@ -1,4 +1,17 @@
-"""neorl: agents that navigate by neural representations of Euclidean space, and the experiments of their thesis.
+"""neorl: agents that learn the way to everywhere, and go where they come to want.
+
+The package builds, runs and compares agents that navigate by brain-like maps of space, after P. R. Leikanger,
+*Autonomous Navigation in (the Animal and) the Machine* (2022). As such an agent acts, it learns the way to each cell of
+each of its maps. What it wants only weighs these ways, and may change at any time without new learning:
+
+>>> agent, tank = neorl.multimodal(), neorl.WaterWorld()
+>>> run = neorl.Run(agent, tank)
+>>> score = run.advance(300_000)  # 100 minutes of catching discs
+>>> star = [neorl.Desire(neorl.Place(0.2, 0.8), node.name, 2.0) for node in agent.nodes]
+>>> run.change(dataclasses.replace(agent, desires=[*agent.desires, *star]))
+>>> path = run.record(3_000).positions / tank.width  # of the next minute
+>>> print(path.mean(axis=0).round(1))
+[0.2 0.8]
 
 An `Agent` is a network of `Node`s and `Desire`s; each node tiles the space of a `Modality`. `simulate` runs agents in
 `WaterWorld`, an `Arena`, an `Arm`, a `Vessel`, a `WaterMaze` or any other `World`; `sweep` runs many `Condition`s in

@@ -119,7 +119,7 @@ def test_the_small_figure_has_a_symbol_for_each_claim_that_a_reading_judges():
 def test_one_headline_stands_on_all_pages_and_counts_what_was_used_to_choose_the_reading_apart():
     headline = ledger.headline(RECORD)
     assert all(headline in page for page in (ledger.front(RECORD), ledger.page(RECORD, RECORD),
-                                             readme.by_verdict(RECORD)))
+                                             readme.found(RECORD)))
     departing = sum(Reading().choices[name] != TO_THE_LETTER.choices[name] for name in WITHIN)
     assert headline == (
         "With every gap of the text filled by what it prints, or by the simplest value (“to the letter”), 1 of the "

@@ -1,5 +1,8 @@
-"""The README: its claims are those of the record, and its examples print what it says."""
+"""The README: it shows the record, and its examples, as those of the package's first page, print what they say."""
 
+import dataclasses
+import doctest
+import json
 import re
 from pathlib import Path
 
@@ -7,31 +10,45 @@ import matplotlib.pyplot as plt
 import pytest
 import readme
 
-from neorl import Agent, Desire, Node, Policy
-from neorl.core import modality
-from companion.thesis.statements import STATEMENTS
+import neorl
 from record import RECORD, of_book
 
-README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
-EXAMPLES = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+ROOT = Path(__file__).parents[2]
+README, PACKAGE = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", "book/api.md"))
+EXAMPLES = re.findall(r"```python\n(.*?)```", README + PACKAGE, re.DOTALL)
 
 
 @pytest.mark.skipif(not RECORD.exists(), reason="nothing is recorded")
 def test_claims_are_as_recorded():
     (written,) = readme.BETWEEN.findall(README)
-    assert written == readme.by_verdict(of_book(None)), "the README must show the record: make readme"
+    assert written == readme.found(of_book(None)), "the README must show the record: make readme"
 
 
-def test_claims_are_written_between_the_marks_and_nothing_else_is_touched():
+def test_the_verdicts_of_both_readings_are_written_between_the_marks_and_nothing_else_is_touched():
     text = "before\n<!-- claims: make readme -->\nold\n<!-- end of claims -->\nafter | \\1\n"
     found = {"here": [0.49, 0.48, 0.51], "runs": 20, "verdict": "reproduced", "numbers": {}}
-    new = readme.by_verdict({"claims": {"B3": found, "B5": found | {"verdict": "refuted by proof"}}, "letter": {}})
+    new = readme.found({"claims": {"B3": found, "B5": found | {"verdict": "refuted by proof"}},
+                        "letter": {"B3": found | {"verdict": "partly"}}})
     assert new.startswith("With every gap of the text filled") and "(20 runs of each condition)" in new
-    assert all(new.count(f"**{name}** {each.text}") == 1 for name, each in STATEMENTS.items())
-    assert re.search(r"^\| ●\u00a0reproduced \| \*\*B3\*\* .*; here 0.49 \[0.48, 0.51\]\) \|$", new, re.MULTILINE)
-    assert re.search(r"Counted apart:\n\n(.*\n){2}\| ∎\u00a0refuted by proof \| \*\*B5\*\* ", new)
+    assert "| Used to choose the calibrated reading | 13 | 1 partly | 1 reproduced |\n" in new
+    assert "|  | 1 refuted by proof |\n" in new
     assert readme.BETWEEN.sub(lambda _: new, text) == (
         f"before\n<!-- claims: make readme -->\n{new}<!-- end of claims -->\nafter | \\1\n")
+
+
+def test_the_package_says_what_it_is_for_with_an_example_that_runs():
+    (example,) = doctest.DocTestFinder(exclude_empty=True, recurse=False).find(
+        neorl, extraglobs={"neorl": neorl, "dataclasses": dataclasses})
+    assert len(example.examples) == 7 and doctest.DocTestRunner().run(example).failed == 0
+
+
+def test_readers_are_sent_to_pages_by_the_titles_that_these_have():
+    titles = [json.loads(path.read_text(encoding="utf-8"))["cells"][0]["source"][0].removeprefix("# ").strip()
+              for path in (ROOT / "notebooks").glob("*.ipynb")]
+    titles += [path.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ") for path in
+               (ROOT / "book").glob("*.md")]
+    named = re.findall(r"\*([A-Z][^*\n]+)\*(?!\*)", README.partition("## Where next")[2].partition("## Examples")[0])
+    assert len(named) > 4 and not set(named) - set(titles)
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning:distributed", "ignore::ResourceWarning")
@@ -49,7 +66,6 @@ def test_every_example_prints_what_stands_behind_its_arrow(tmp_path, monkeypatch
 def test_the_loop_of_a_learner_takes_an_agent_that_is_idle_while_it_knows_nothing(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (loop,) = [each for each in EXAMPLES if ".act()" in each]
-    names = {"Agent": lambda *parts: Agent(*parts, policy=Policy(0.0, "no-op")), "Desire": Desire,
-             "Node": Node, "modality": modality}
-    exec(loop.replace("5_000", "3"), names)
+    names, idle = {"neorl": neorl}, 'valence=1.0)], policy=neorl.Policy(0.0, "no-op"))'
+    exec(loop.replace("5_000", "3").replace("valence=1.0)])", idle), names)
     assert (names["x"], names["y"]) == (0.5, 0.5)
