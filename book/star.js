@@ -98,6 +98,7 @@ class Star {
         frame = await this.ask({ type: "advance", steps: lesson, budget: LESSON_BUDGET });
         if (life !== this.life) return;
         this.show("learning", frame.step / world.fps / 60);
+        if (!this.calm) drawArena(this.tank, readColours(this.root), bare(frame));
       }
     }
     const parameters = this.parameters(); // the star may have been moved in the meantime
@@ -151,7 +152,8 @@ class Star {
   sample(frames) {
     const { star, data: { world: { fps } } } = this;
     const distances = frames.map(({ agent }) => Math.hypot(agent.x - star.x, agent.y - star.y));
-    return { at: frames[0].step / fps, distances, hits: frames.map(({ hits }) => hits) };
+    const hits = frames.map((frame) => frame.hits.map(({ counts: [count] }) => count)); // of the single bin of the run
+    return { at: frames[0].step / fps, distances, hits };
   }
 
   // What is shown
@@ -200,7 +202,7 @@ class Star {
     this.drawn = now;
     if (!life?.frames) return;
     const colours = readColours(root);
-    const [mine, theirs] = life.frames.map((frame) => ({ ...frame, seen: null, nodes: [], landings: [] }));
+    const [mine, theirs] = life.frames.map(bare);
     drawArena(tank, colours, mine, { trail: true });
     drawArena(other, { ...colours, agent: colours.place }, theirs, { trail: true });
     this.drawStar(other, colours);
@@ -256,6 +258,9 @@ class Star {
     Object.assign(this.root.querySelector("[role=alert]"), { hidden: false, textContent: message });
   }
 }
+
+/** A frame without maps and desires. */
+const bare = (frame) => ({ ...frame, seen: null, nodes: [], landings: [] });
 
 /** Draw the distances of both agents to the star over the last minute, in board widths. */
 function drawDistances(canvas, colours, curves) {

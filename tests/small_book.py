@@ -24,9 +24,9 @@ import neorl
 from companion.page import report
 result = neorl.simulate(neorl.place_cells([3]), neorl.WaterWorld(), steps=10_000, runs=runs, seed={seed},
                         cache=True, progress=False)
-lines = "".join(f"<path d='M{{k}} 0V{{abs(paid):.0f}}'/>" for k, paid in enumerate(result.rewards.ravel()))
+lines = "".join(f"<path d='M{{k}} 0V{{abs(paid):.0f}}'/>" for k, paid in enumerate(result.rewards[:, ::4].ravel()))
 print(f"{{result.totals.sum():.6f}}")"""
-DRAW = """SVG(f"<svg xmlns='http://www.w3.org/2000/svg' width='75pt' height='30pt'>{lines * 2}</svg>")"""
+DRAW = """SVG(f"<svg xmlns='http://www.w3.org/2000/svg' width='75pt' height='30pt'>{lines}<!--{lines * 80}--></svg>")"""
 FIND_SHARES = "report.save('assumptions', shares={'A2': {'agrees': 1, 'measured': 4}})"
 CONCLUDE = """from companion.page import report
 print(sorted(report.load()["shares"].items()))

@@ -221,8 +221,8 @@ function frame(steps = 0) {
   const [from, to] = [parameters.maps.first_track[m], parameters.maps.first_track[m + 1]].map(Number);
   return {
     type: "frame", step: run.step, ended: run.step >= run.steps, reward: run.reward, rewards: run.rewards.slice(),
-    hits: run.hits.slice(), maps, shapes: maps.map((_, each) => shapeOf(each)), seen: seen(m), steps, agent,
-    things: thingsOf(run), trail: run.trail, round: false, obstacles: [], ...VIEWS[world.name](run),
+    maps, shapes: maps.map((_, each) => shapeOf(each)), seen: seen(m), steps, agent, things: thingsOf(run),
+    trail: run.trail, round: false, obstacles: [], ...VIEWS[world.name](run),
     player: player && { ...body(second), reward: player.reward },
     hits: world.kinds.map((kind, k) => ({ kind, counts: run.hits.filter((_, i) => i % world.kinds.length === k) })),
     wants: choices.desires.kind.flatMap((kind, e) =>
