@@ -11,7 +11,7 @@ import numpy as np
 from neorl import checks
 from neorl.agents.agent import FIRST_WORTH, LEARNED, Place
 from neorl.core import contacts, life
-from neorl.core.calls import execute
+from neorl.core.calls import interpret
 from neorl.core.choices import Credit, MapState, Source, UpdateOn, Weighting
 from neorl.core.constants import Constants, choice, features, no_credit
 from neorl.core.kernel import new_tuple
@@ -29,7 +29,7 @@ def compiled(agent, world):
     """
     choices, sizes = chosen(agent, world)
     parameters = new_tuple(Parameters, sizes, choices)
-    execute(derive, parameters, world.things)
+    interpret(derive, parameters, world.things)
     return parameters
 
 
@@ -70,7 +70,7 @@ def n_bytes(agent, world):
     """The bytes that an agent in a world needs for its values and for its memory of the cells it has left."""
     rule, actions, axes = agent.learning, len(world.actions.names), world.actions.axes
     total = 4 * n_values(agent, world)
-    passed = int(execute(most_passed, _retained(rule.memory))) * (8 * (axes + 1) + 4 * actions)
+    passed = int(interpret(most_passed, _retained(rule.memory))) * (8 * (axes + 1) + 4 * actions)
     for node in agent.nodes:
         several = {"objects": world.things, "boundaries": 2 * axes, "landmarks": len(node.modality.landmarks)}
         points = 1 if node.state == "self" else several.get(node.modality.follows, 1)

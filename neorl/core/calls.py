@@ -13,7 +13,7 @@ from typing import Annotated, NamedTuple, get_args
 import numpy as np
 
 from neorl import checks
-from neorl.core.kernel import Kernel, fields, full_name, is_tuple, jit_is_off
+from neorl.core.kernel import Kernel, fields, full_name, interpreting, is_tuple, jit_is_off
 from neorl.core.kernel_errors import raise_named
 
 
@@ -31,10 +31,15 @@ def execute(kernel, *arguments):
     try:
         if isinstance(kernel, Kernel):
             return kernel.for_python(*_passed(kernel, arguments))
-        with np.errstate(all="ignore"):  # as in compiled code, where random streams overflow
-            return kernel(*arguments)
+        return interpret(kernel, *arguments)
     except Exception as error:
         raise_named((kernel, *_kernels_in(arguments)), error)
+
+
+def interpret(kernel, *arguments):
+    """Call a kernel as a Python function, which gives the same bits; to compile what runs once would take longer."""
+    with interpreting():
+        return kernel(*arguments)
 
 
 def bound(called, *arguments):

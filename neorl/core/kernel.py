@@ -42,7 +42,7 @@ from neorl.core.kernel_errors import not_compiled
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and does not count references to its arrays.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
 INLINED = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-_making = threading.RLock()
+_making, _interpreting = threading.RLock(), threading.local()
 _kernels = WeakKeyDictionary[type, Any]()  # by the class that stands for them
 
 
@@ -77,6 +77,8 @@ class Kernel:
         return f"<kernel {full_name(self)}>"
 
     def __call__(self, *arguments):
+        if getattr(_interpreting, "is_on", False):
+            return self.py_func(*arguments)
         raise TypeError(f"{self.__module__}.{self.__name__} is a kernel, which checks nothing: call it by "
                         "neorl.core.calls.execute, with arrays that fit")
 
@@ -163,6 +165,17 @@ def _kernel_of(definition):
         kernel = Kernel(*definition.made_of)
         kernel.definition, _kernels[definition] = definition, kernel
     return _kernels[definition]
+
+
+@contextlib.contextmanager
+def interpreting():
+    """Within this context, in this thread, a kernel is the Python function that it was written as."""
+    before, _interpreting.is_on = getattr(_interpreting, "is_on", False), True
+    try:
+        with np.errstate(all="ignore"):  # as in compiled code, where random streams overflow
+            yield
+    finally:
+        _interpreting.is_on = before
 
 
 class Compiled(NamedTuple):

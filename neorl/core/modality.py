@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
 from neorl.checks import OneOf, Within
-from neorl.core.calls import execute, in_table
+from neorl.core.calls import execute, in_table, interpret
 from neorl.core.choices import Cut, Feature, MapState, Vector
 from neorl.core.constants import Constants, features
 from neorl.core.geometry import TAU, locate
@@ -304,7 +304,7 @@ def space_of(modality, resolution, n_axes=None, size=1.0):
     sizes |= {"maps": 1, "map_axes": len(modality.axes), "axes": n_axes, "desires": 0}
     space = new_tuple(SpaceParameters, sizes, given | {"size": float(size), "maps": {
         "resolution": np.array([resolution])}})
-    execute(cut_axes, space, 0, 0)
+    interpret(cut_axes, space, 0, 0)
     return in_table(space)
 
 

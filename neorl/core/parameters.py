@@ -2,7 +2,7 @@
 
 Maps are in the order of the agent's nodes. A *track* is one point that a map follows: the agent itself, or one of the
 things that its modality represents. All tracks of a map share its values. Desires keep the agent's order. Derived
-parameters are filled in by a kernel, so the browser can compute them without Python.
+parameters are filled in by a kernel: once for each agent, so Python interprets it, and the browser needs no Python.
 
 User-defined kernels are not included, see `neorl.core.constants`.
 """
@@ -192,7 +192,7 @@ def derive(parameters: Parameters, n_things: int) -> None:
             maps.first_passed[m + 1] = maps.first_passed[m] + points * maps.passed[m]
         for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
             maps.weight[m] /= total
-        find_inputs(parameters, n)
+    find_inputs(parameters)
 
 
 @kernel
@@ -245,20 +245,24 @@ def interval_in(axes, axis, cut, coordinate):
 
 
 @kernel
-def find_inputs(parameters, n):
-    """List the desires of a node, and find the goals of those for a point."""
+def find_inputs(parameters):
+    """List the desires of each node, and find the goals of those for a point."""
     nodes, desires, maps = parameters.nodes, parameters.desires, parameters.maps
-    end, first_axis = nodes.first_input[n], nodes.first_axis[n]
-    nodes.receives[n] = False
+    nodes.first_input[:] = 0
+    nodes.receives[:] = False
     for e in range(desires.target.shape[0]):
-        if desires.target[e] == n:
-            nodes.inputs[end] = e
-            nodes.receives[n] = nodes.receives[n] or desires.source[e] == Source.node
-            end += 1
-            for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
-                desires.goal[e, m] = 0
-                for axis in range(nodes.first_axis[n + 1] - first_axis):
-                    cut = parameters.grid[maps.first_grid[m] + axis]
-                    interval = interval_in(parameters.axes, first_axis + axis, cut, desires.at[e, axis])
-                    desires.goal[e, m] += int(cut[STRIDE] * interval)
-    nodes.first_input[n + 1] = end
+        n, first_axis = desires.target[e], nodes.first_axis[desires.target[e]]
+        nodes.first_input[n + 1] += 1
+        nodes.receives[n] = nodes.receives[n] or desires.source[e] == Source.node
+        for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
+            desires.goal[e, m] = 0
+            for axis in range(nodes.first_axis[n + 1] - first_axis):
+                cut = parameters.grid[maps.first_grid[m] + axis]
+                interval = interval_in(parameters.axes, first_axis + axis, cut, desires.at[e, axis])
+                desires.goal[e, m] += int(cut[STRIDE] * interval)
+    end = 0
+    for n in range(nodes.follows.shape[0]):  # where its list begins, and then, as it fills, ends
+        end, nodes.first_input[n + 1] = end + nodes.first_input[n + 1], end
+    for e in range(desires.target.shape[0]):
+        nodes.inputs[nodes.first_input[desires.target[e] + 1]] = e
+        nodes.first_input[desires.target[e] + 1] += 1

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.calls import execute, tabled
+from neorl.core.calls import execute, interpret, tabled
 from neorl.core.kernel import array, kernel, new_tuple
 from neorl.core.learning import order_of, place_of, values_of
 from neorl.core.parameters import ENTRIES, Parameters
@@ -97,7 +97,7 @@ def new_state(parameters, stream, n_things, old=None):
         execute(clear_q, *old)
         values["q"] = old[1].values.q[: sizes["values"]]
     state = new_tuple(State, sizes, {"stream": stream, "values": values})
-    execute(begin_values, parameters, state)
+    interpret(begin_values, parameters, state)
     return state
 
 
@@ -129,10 +129,10 @@ def begin_values(parameters: Parameters, state: State) -> None:
     maps, nodes = parameters.maps, parameters.nodes
     for n in range(nodes.follows.shape[0]):
         for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
-            for cell in range(maps.first_cell[m], maps.first_cell[m + 1]):
-                state.values.goal_range[cell, 0], state.values.goal_range[cell, 1] = maps.cells[m], 0
+            state.values.goal_range[maps.first_cell[m] : maps.first_cell[m + 1], 0] = maps.cells[m]
+            state.values.goal_range[maps.first_cell[m] : maps.first_cell[m + 1], 1] = 0
             if nodes.learns_contacts[n]:
-                for i in range(maps.first_value[m], maps.first_value[m + 1], ENTRIES):
-                    state.values.q[i] = np.float32(parameters.contacts.first_value)
+                first_value = np.float32(parameters.contacts.first_value)
+                state.values.q[maps.first_value[m] : maps.first_value[m + 1] : ENTRIES] = first_value
     for e in range(parameters.desires.valence.shape[0]):
         state.desires.worth[e] = parameters.desires.valence[e]
