@@ -33,7 +33,7 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
     "core.scene.checked_scene", "worlds.world.check_arrays",
     "worlds.walls.checked", "worlds.world.check_definition", "worlds.world.check_outcome",
     "worlds.world.check_rules", "worlds.world.checked_rules")}
-NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian"}  # it takes no arguments
+NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian", "neorl.core.kernel.interpreting"}  # they take no arguments
 
 
 def public_names():
