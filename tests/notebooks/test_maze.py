@@ -169,7 +169,7 @@ def test_the_demonstration_holds_as_far_as_its_animals_do(after, verdict):
 
 
 @pytest.mark.parametrize("page, judged", [
-    ({}, ["H1"]), ({"exploration": 0.3}, []), ({"learning_rate": 0.2}, []),
+    ({}, ["H1"]), ({"exploration": 0.3}, []),
     ({"changes": (("Maze()", 'Maze("RLRL")'),)}, [])])
 def test_the_page_judges_the_animals_of_the_book_alone(page, judged):
     page = executed("chapter_2", **page)
