@@ -13,9 +13,6 @@ const DAY = 86_400; // seconds, after which a run begins anew
 const ARROWS = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowRight: [1, 0], ArrowLeft: [-1, 0] };
 const STOPPED = "The agents have stopped. Reload the page to begin again.";
 
-/** An error that the reader can fix, with a message to show. */
-class Refusal extends Error {}
-
 class Star {
   constructor(root, data) {
     Object.assign(this, { root, data, star: data.star, forgetful: false, redIsGood: false, life: null, engines: [],
@@ -242,13 +239,7 @@ class Star {
   // Failures
 
   safely(act) {
-    return async (...given) => {
-      try {
-        await act(...given);
-      } catch (error) {
-        this.fail(error instanceof Refusal ? error.message : STOPPED);
-      }
-    };
+    return guarded(act, (message) => this.fail(message));
   }
 
   fail(message = STOPPED) {

@@ -98,9 +98,6 @@ const inOrder = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);
 const shifted = ({ x, y }, dx, dy, by) => ({ x: clampedToBoard(x + by * dx), y: clampedToBoard(y + by * dy) });
 const indexOf = (element) => [...element.parentElement.children].indexOf(element);
 
-/** An error that the reader can fix, with a message to show. The messages of other errors are not shown. */
-class Refusal extends Error {}
-
 /** Everything the page holds of one run; every run has its own, and they share nothing. */
 const newLife = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { steps: 1, bin: 1 }, changed: false,
   advancing: false, owed: 0, counted: 0, rate: 0, cursor: null, game: null, held: null, slid: false, dragged: null,

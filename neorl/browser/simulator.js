@@ -1,4 +1,19 @@
-/* A worker that runs agents: `engine.js` with the kernels, each module of which loads when its first run begins. */
+/* A worker that runs agents: `engine.js` with the kernels, each module of which loads when its first run begins; and
+what a page does when one of its requests fails. */
+
+/** An error that the reader can fix, with a message to show. The messages of other errors are not shown. */
+class Refusal extends Error {}
+
+/** A function after whose errors `fail` is called: with what a refusal says, or without a message. */
+function guarded(act, fail) {
+  return async (...given) => {
+    try {
+      await act(...given);
+    } catch (error) {
+      fail(error instanceof Refusal ? error.message : undefined);
+    }
+  };
+}
 
 /** Start the worker. Each request resolves to its answer, or to null if the worker is stopped before that; after a
  * failure, which is passed to onFailure, none resolves. */

@@ -280,13 +280,7 @@ class Explorer extends Saving {
   // Failures, and the end
 
   safely(act) {
-    return async (...given) => {
-      try {
-        await act(...given);
-      } catch (error) {
-        this.fail(error instanceof Refusal ? error.message : STOPPED);
-      }
-    };
+    return guarded(act, (message) => this.fail(message));
   }
 
   complain(message) {
