@@ -1,6 +1,6 @@
 """What the papers' agents earn to the letter and calibrated, side by side on one axis, as an HTML table.
 
-The readings may tell different stories, of which verdicts show only the end. Numbers are those of claims in the record.
+The readings may differ in much of which verdicts show only the end. Numbers are from the claims in the record.
 """
 
 from html import escape

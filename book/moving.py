@@ -1,8 +1,7 @@
 """Draw the moving picture of the README and the still one of the front page, from the kernels: ``make pictures``.
 
-Two agents in tanks that begin alike, as on the front page (`star.py`), and a star that moves: on the left the one that
-has lived for a while, on the right the one that knows nothing. Pictures are the same in every run with one version of
-matplotlib and Pillow.
+Two agents in tanks that begin alike, as on the front page (`star.py`), and a star that moves: on the left the one with
+experience, on the right the one without. Pictures are the same in every run with one version of matplotlib and Pillow.
 """
 
 from io import BytesIO
@@ -11,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib import pyplot as plt
 from PIL import Image
-from star import AGENT, LESSON, SEED, TANK, lived, with_star
+from star import AGENT, LESSON, SEED, TANK, experienced, with_star
 
 import neorl
 from neorl import drawing
@@ -33,7 +32,7 @@ def main():
 
 def film(places=PLACES, seconds=SECONDS, lesson=LESSON, dots=DOTS):
     """(the moving picture as a GIF, a moment in the left tank as a PNG), as bytes."""
-    runs = [lived(places[0], lesson), neorl.Run(with_star(AGENT, places[0]), TANK, SEED)]
+    runs = [experienced(places[0], lesson), neorl.Run(with_star(AGENT, places[0]), TANK, SEED)]
     pictures, paths, still = [], [[], []], BytesIO()
     for place in places:
         for run in runs:

@@ -1,4 +1,4 @@
-/* The star in the page: an agent that has lived 100 minutes, one that knew nothing, and a star that the reader drags.
+/* The star in the page: an agent with 100 minutes of experience, one without, and a star to drag.
 
 - The rules are those of star.py. Each agent has a worker of its own, which advances only on request. The lesson, and
   every request, is short, so that the page stays responsive; out of view, or paused, none is made.
@@ -7,16 +7,16 @@
 
 const SPEED = 2; // times real time
 const [LESSON_BUDGET, MOST_SECONDS] = [24, 0.1]; // milliseconds of each request; simulated seconds behind real time
-const [PERIOD, CALM, TOLD] = [60, 500, 250]; // seconds measured; milliseconds between drawings, and between numbers
+const [PERIOD, CALM, NUMBERS] = [60, 500, 250]; // seconds measured; milliseconds between drawings, and between numbers
 const [STEP, EDGE] = [0.04, 0.03]; // of the arrow keys, and the star's distance to the walls, in board widths
-const DAY = 86_400; // seconds, after which a run begins anew
+const DAY = 86_400; // seconds, after which a run begins again
 const ARROWS = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowRight: [1, 0], ArrowLeft: [-1, 0] };
 const STOPPED = "The agents have stopped. Reload the page to begin again.";
 
 class Star {
   constructor(root, data) {
     Object.assign(this, { root, data, star: data.star, forgetful: false, redIsGood: false, life: null, engines: [],
-      isPlaying: !matchMedia("(prefers-reduced-motion: reduce)").matches, inSight: false, drawn: 0, told: 0 });
+      isPlaying: !matchMedia("(prefers-reduced-motion: reduce)").matches, inSight: false, drawn: 0, numbered: 0 });
     this.calm = !this.isPlaying;
     [this.tank, this.other, this.distance] = root.querySelectorAll("canvas");
     this.handle = root.querySelector(".star");
@@ -207,7 +207,7 @@ class Star {
     handle.style.top = `${100 * shareOf(star.y)}%`;
     const [across, down] = [star.x, star.y].map((side) => Math.round(100 * side));
     handle.ariaLabel = `The star, ${across} % from the left and ${down} % from the top: drag it, or use the arrow keys.`;
-    if (now - this.told >= TOLD || !this.isRunning()) this.tell(colours, now);
+    if (now - this.numbered >= NUMBERS || !this.isRunning()) this.showNumbers(colours, now);
   }
 
   drawStar(canvas, colours) {
@@ -217,9 +217,9 @@ class Star {
   }
 
   /** Write the numbers of the last minute, or of the time since the star was moved, and draw the distances. */
-  tell(colours, now) {
+  showNumbers(colours, now) {
     const { root, distance, life: { past, curves, frames } } = this;
-    this.told = now;
+    this.numbered = now;
     const [first, last] = past.length ? [past[0], past.at(-1)] : [this.sample(frames), this.sample(frames)];
     const seconds = last.at - first.at;
     root.querySelector(".period").textContent = `The last ${Math.round(seconds)} s`;

@@ -1,9 +1,9 @@
-"""The star: an agent that has lived for a while, and a place that it comes to want, for the front page and the README.
+"""The star: an agent with experience, and a place that it comes to want, for the front page and the README.
 
 1. Two agents run in tanks that begin alike: one has learned for `LESSON` in a run of another seed, and the other has
-   learned nothing. From then on both live, and learn, for as long.
+   learned nothing. From then on both act, and learn, for as long.
 2. Both want the star, an element of interest at a place, besides the green creeps. No reward is ever paid for it.
-3. The page (`star.js`) runs them in the reader's browser; `lived` and `with_star` are the same runs in Python.
+3. The page (`star.js`) runs them in the reader's browser; `experienced` and `with_star` are the same runs in Python.
 """
 
 import gzip
@@ -33,7 +33,7 @@ def with_star(agent, place):
     return replace(agent, desires=(*agent.desires, *wants))
 
 
-def lived(place=START, lesson=LESSON):
+def experienced(place=START, lesson=LESSON):
     """The run of the experienced agent when the reader meets it, with the star at a place: a `neorl.Run`."""
     learner = neorl.Run(AGENT, TANK, SEED + 1)
     learner.advance(lesson)

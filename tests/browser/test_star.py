@@ -53,7 +53,7 @@ def test_the_page_runs_what_python_runs(open_star):
     page.wait_for_selector("[data-state=paused]")
     page.wait_for_timeout(500)
     step, at = (page.locator(".neorl-star").get_attribute(f"data-{name}") for name in ("step", "at"))
-    run = star.lived()
+    run = star.experienced()
     run.advance(int(step))
     assert [*map(float, at.split())] == [*(run.world_state.scene.position / star.TANK.width)]
 
@@ -74,7 +74,7 @@ def test_the_agent_follows_the_star_that_its_reader_drags(open_star):
 
 
 def test_the_agent_is_closer_to_the_star_than_one_that_knows_nothing():
-    runs = [star.lived(), neorl.Run(star.with_star(star.AGENT, star.START), star.TANK, star.SEED)]
+    runs = [star.experienced(), neorl.Run(star.with_star(star.AGENT, star.START), star.TANK, star.SEED)]
     means = []
     for run in runs:
         found = []
