@@ -26,6 +26,7 @@ The package is organised in rooms; a module imports only from its own room and f
 - `neorl.statistics`: estimates with their intervals, and comparisons;
 - `neorl.experiments`: runs, sweeps, and the cache of finished ones;
 - `neorl.agents`: agents as data, and the `Learner`;
+- `neorl.beyond`: learners that go beyond the thesis;
 - `neorl.worlds`: the interface of worlds, WaterWorld and others, and the rollout of an agent in them;
 - `neorl.core`: the kernels, scenes, modalities and maps.
 """

@@ -43,7 +43,7 @@ def in_slices(name, steps):
             reward += run.advance(min(next(lengths), min(until, steps) - run.step))
         if later and until < steps:
             run.change(later)
-    return golden.recorded(name, reward, run.agent, run.state.values.q, run.world_state)
+    return golden.recorded(name, reward, run.agent, run.memory.q, run.world_state)
 
 
 def from_a_copy(name, steps, copied=Run.copy):
@@ -57,7 +57,7 @@ def from_a_copy(name, steps, copied=Run.copy):
         reward += run.advance(until - run.step)
         if later and until < steps:
             run.change(later)
-    return golden.recorded(name, reward, run.agent, run.state.values.q, run.world_state)
+    return golden.recorded(name, reward, run.agent, run.memory.q, run.world_state)
 
 
 def from_a_file(name, steps):
@@ -83,7 +83,7 @@ def among_others(name, steps, runs, threads):
         def advance(self, *arguments):
             super().advance(*arguments)
             if (self.number, self.step) == (golden.RUN, steps):
-                found[:] = self.agent, self.state.values.q.copy(), self.copy().world_state
+                found[:] = self.agent, self.memory.q.copy(), self.copy().world_state
 
     changes = [change for change in golden.changes_of(name) if change[0] < steps]
     with patch.object(simulation, "Run", Watched):
@@ -105,7 +105,7 @@ def by_a_learner(name, steps):
         if done:
             execute(world.dynamics.reset, state, world.rules)
             learner.begin(state.scene)
-    return golden.recorded(name, reward, learner.agent, learner.state.values.q, state)
+    return golden.recorded(name, reward, learner.agent, learner.memory.q, state)
 
 
 def in_webassembly(name, steps):
@@ -116,7 +116,7 @@ def in_webassembly(name, steps):
         return None
     machine, sizes, arguments = copied(golden.born(name))
     reward = machine.call("rollout", sizes, last_step=steps, bin_steps=steps, **arguments)
-    return golden.recorded(name, reward, golden.agent_of(name), arguments["state"].values.q[1],
+    return golden.recorded(name, reward, golden.agent_of(name), arguments["memory"].q[1],
                            views(arguments["world_state"]))
 
 

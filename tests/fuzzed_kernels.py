@@ -163,7 +163,7 @@ def by_run(agent, world, rng):
         run.advance(int(rng.integers(1, 90)))
         if rng.random() < 0.5:
             edit(run.world_state, rng)
-    return [run.state.values.q, run.state.desires.q]
+    return [run.memory.q, run.state.desires.q]
 
 
 def edit(state, rng):
@@ -184,7 +184,7 @@ def by_learner(agent, world, rng):
         action = learner.act()
         assert 0 <= action < len(world.actions.all_names), f"act() returns {action}"
         learner.observe(any_scene(rng, 0.02), float(rng.choice([0.5, -1.0, 1e30])))
-    return [learner.state.values.q, learner.state.desires.q]
+    return [learner.memory.q, learner.state.desires.q]
 
 
 def any_scene(rng, wild):

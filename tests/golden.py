@@ -182,7 +182,7 @@ def digest(name, steps):
         if step < steps:
             run.change(later)
     reward += run.advance(steps - run.step)
-    return recorded(name, reward, run.agent, run.state.values.q, run.world_state)
+    return recorded(name, reward, run.agent, run.memory.q, run.world_state)
 
 
 def recorded(name, reward, agent, q, state):

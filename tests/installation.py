@@ -5,12 +5,15 @@
 First the wheel alone: README's first example prints what it says, every module either imports or names the extra that
 it needs, and the WebAssembly modules that the wheel carries are those of its sources. Then the wheel with `EXTRAS`: the
 tests in `FOLDERS`, with ARGUMENTS for pytest. All of this runs in another folder, so that the installation is tested.
+With VERSIONS=oldest in the environment, dependencies are of the oldest versions that ``pyproject.toml`` allows.
 """
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
+import tomllib
 import venv
 from pathlib import Path
 
@@ -42,6 +45,12 @@ print(f"without extras: README's example, and all modules but {', '.join(needing
 """
 
 
+def oldest():
+    """The lower bounds of the dependencies, as pins."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    return [re.sub(">=", "==", each) for each in project["dependencies"] if ">=" in each]
+
+
 def main(wheel, *arguments):
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     environment.setdefault("NEORL_CACHE", str(ROOT / ".cache"))  # has compiled kernels
@@ -54,7 +63,9 @@ def main(wheel, *arguments):
         if not wheel:
             run(python, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", folder, ROOT)
             (wheel,) = Path(folder).glob("*.whl")
-        install = python, "-m", "pip", "install", "--quiet", "--no-compile"
+        constraints = Path(folder, "constraints.txt")
+        constraints.write_text("\n".join(oldest() if os.environ.get("VERSIONS") == "oldest" else []))
+        install = python, "-m", "pip", "install", "--quiet", "--no-compile", "--constraint", constraints
         wheel = Path(wheel).resolve()
         run(*install, wheel)
         run(python, "-c", ALONE, ROOT)

@@ -12,8 +12,8 @@ MODULES = (neorl, agent, beyond, individual, learner, papers, horde, kernel, map
            stream, arena, arm, vessel, walls, water_maze, waterworld, world, environment, playing, vector)
 # Classes that only kernels or the package itself instantiate; kernels refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
-    "agents.individual.Individual", "agents.individual.Output", "agents.learner.Offer", "core.kernel.Kernel",
-    "core.kernel.Compiled", "core.scene.Scene",
+    "agents.individual.Individual", "agents.individual.Output", "agents.learner.Here", "agents.learner.Offer",
+    "core.kernel.Kernel", "core.kernel.Record", "core.kernel.Signature", "core.scene.Scene",
     "gym.playing.Played", "experiments.result.Result", "experiments.run.Trajectory", "worlds.arena.ArenaRules",
     "worlds.arena.ArenaState", "worlds.waterworld.Rules",
     *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")
@@ -23,8 +23,8 @@ MADE_INSIDE = {f"neorl.{name}" for name in (
 # called often or at import.
 FOR_AUTHORS = {f"neorl.{name}" for name in (
     *(f"core.kernel.{name}" for name in (
-        "Kernel.compiled_for", "array", "arrays", "check_kernel", "fields", "full_name", "function_of", "inlined",
-        "inlined_kernel", "is_tuple", "length", "mapped", "new_tuple")),
+        "Kernel.compiled_for", "array", "arrays", "check_kernel", "fields", "full_name", "function", "function_of",
+        "inlined", "inlined_kernel", "is_tuple", "length", "mapped", "new_tuple", "tabled")),
     *(f"core.modality.{name}" for name in (
         "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "check_faults", "firsts", "integers",
         "space_of")),

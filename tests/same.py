@@ -4,31 +4,36 @@ import hashlib
 
 import numpy as np
 
-from neorl import Learner, Result
+from neorl import Learner, Result, Run
 from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
 from neorl.experiments import simulation
 from neorl.experiments.run import new_bins
 
 
+def numbers(values):
+    """The arrays of numbers in a `Learner` or `Run`, or in a named tuple, by name."""
+    return arrays(values._record) | arrays(values._memory) if isinstance(values, Learner | Run) else arrays(values)
+
+
 def assert_equal(one, other):
-    """Assert that the arrays of two named tuples are equal."""
-    theirs = arrays(other)
-    for name, mine in arrays(one).items():
+    """Assert that the numbers in two of these are equal."""
+    theirs = numbers(other)
+    for name, mine in numbers(one).items():
         np.testing.assert_array_equal(mine, theirs[name], name)
 
 
 def assert_same(one, other):
     """Assert that two runs are at the same step of the same life."""
     assert one.step == other.step
-    assert_equal(one.state, other.state)
+    assert_equal(one, other)
     assert_equal(one.world_state, other.world_state)
 
 
 def digest(run, steps):
     """A run's reward in a number of steps, and a digest of its values and its world after them."""
     paid = run.advance(steps)
-    content = [run.state.values.q, *arrays(run.world_state).values()]
+    content = [run.memory.q, *arrays(run.world_state).values()]
     return f"{paid} {hashlib.sha256(b''.join(each.tobytes() for each in content)).hexdigest()}"
 
 
@@ -37,7 +42,7 @@ def newborn(agent, world, seed=0, run=0):
     sequence = np.random.SeedSequence(seed, spawn_key=(run,))
     state = world.reset(sequence)
     learner = Learner(agent, world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
-    learner._state.stream[:] = new_stream(sequence.spawn(1)[0])
+    learner._record["stream"] = new_stream(sequence.spawn(1)[0])
     learner.begin(state.scene)
     return learner, state
 

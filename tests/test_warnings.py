@@ -9,10 +9,11 @@ import warnings
 import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import neorl
-from neorl import Policy, WaterWorld, gym, kernel, place_cells, simulate
+from neorl import Policy, WaterWorld, gym, place_cells, simulate, softmax
 from neorl.browser import wasm
 from neorl.core.kernel import jit_is_off
 
@@ -25,11 +26,11 @@ if "homeless" in sys.argv:
     del os.environ["HOME"], os.environ["NEORL_CACHE"]
     from neorl import files
     files.CHECKOUT = files.Path()  # as if it were installed, not imported from a clone, which has a cache
-from neorl import WaterWorld, execute, kernel, place_cells, simulate
+from neorl import WaterWorld, execute, heading, place_cells, simulate
 from neorl.core.identity import digest_of_source
-doubled = kernel(lambda x: 2.0 * x)
+turns = 0.1
 for _ in range(2):
-    execute(doubled, 1.0), "alone" in sys.argv or simulate(
+    execute(heading, turns), "alone" in sys.argv or simulate(
         place_cells([3]), WaterWorld(), steps=300, runs=1, cache=True, progress=False)
 print(digest_of_source("core", "worlds"))
 """
@@ -37,8 +38,8 @@ print(digest_of_source("core", "worlds"))
 
 @pytest.fixture
 def choose():
-    """A policy's kernel that is not compiled yet."""
-    return kernel(lambda value, stream: 1)
+    """A policy's kernel, of the package, that is not compiled yet."""
+    return softmax(np.random.default_rng().random())
 
 
 def simulated(choose, cache):

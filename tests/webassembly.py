@@ -2,17 +2,20 @@
 
 import ctypes
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 from neorl.browser import wasm, worlds
 from neorl.browser.worlds import IN_THE_PLANE, PlaneState, rules_of
-from neorl.core.kernel import arrays, length, mapped, new_tuple
+from neorl.core.kernel import array, arrays, fields, length, mapped, new_tuple
+from neorl.core.record import CUT, TRACK
 
 wasmtime = pytest.importorskip("wasmtime")
 
 PAGE = 2**16
+RECORDS = {"TRACK": TRACK, "CUT": CUT}
 
 
 @cache
@@ -40,14 +43,14 @@ class Machine:
         self.exports = wasmtime.Instance(self.store, module, [self.memory]).exports(self.store)
         self.end = self.exports["__heap_base"].value(self.store)
 
-    def put(self, array):
+    def put(self, values):
         """Copy an array into the memory: (address, view of the copy)."""
         address = -(-self.end // 64) * 64
-        self.end = address + array.nbytes
+        self.end = address + values.nbytes
         base = ctypes.addressof(self.memory.data_ptr(self.store).contents)
-        view = np.ctypeslib.as_array((ctypes.c_uint8 * max(array.nbytes, 1)).from_address(base + address))
-        view = view[: array.nbytes].view(array.dtype).reshape(array.shape)
-        view[...] = array
+        view = np.ctypeslib.as_array((ctypes.c_uint8 * max(values.nbytes, 1)).from_address(base + address))
+        view = view[: values.nbytes].view(values.dtype).reshape(values.shape)
+        view[...] = values
         return address, view
 
     def put_tuple(self, values):
@@ -69,28 +72,41 @@ class Machine:
                 yield from self.words(values[name]._asdict(), self.layout["tuples"][kind], sizes)
                 continue
             dtype, shape = kind
+            if dtype == "Agent":
+                yield values[name][0]
+                continue
             if shape is None:
                 yield np.array(values[name], float if dtype.startswith("float") else int).view(np.int64)
                 continue
             address, view = values[name]
-            assert view.dtype == dtype and view.shape == tuple(length(each, sizes) for each in shape), name
+            assert view.dtype == RECORDS.get(dtype, dtype), name
+            assert view.shape == tuple(length(each, sizes) for each in shape), name
             yield from (address, *view.shape)
 
 
 def sizes_of(run):
-    parameters, tracks = run.parameters, run.state.tracks
-    maps, (actions, axes) = parameters.maps, parameters.push.shape
-    return {"maps": len(maps.cells), "map_axes": len(parameters.grid), "nodes": len(parameters.nodes.follows),
-            "node_axes": len(parameters.axes.what), "boundaries": len(parameters.axes.boundary),
-            "landmarks": len(parameters.nodes.landmark), "desires": len(parameters.desires.source),
-            "coordinates": parameters.desires.at.shape[1], "actions": actions, "axes": axes,
-            "frames": len(parameters.frames), "left": parameters.contacts.trace,
-            "values": maps.first_value[-1], "cells": maps.first_cell[-1], "tracks": maps.first_track[-1],
-            "scratch": actions * maps.first_cell[-1],
-            "traces": len(tracks.strength), "trace_weights": len(tracks.trace_weight),
-            "passed": maps.first_passed[-1],
-            "things": run.world.things, "words": 0, "bins": 1, "kinds": len(run.world.kinds),
-            **{name: worlds.sizes_of(run.world)[name] for name in ("obstacles", "places", "trials")}}
+    found = {}
+    for values in (run.memory, Span(run.state.here, run.state.push)):
+        for name, (_, shape) in fields(type(values)).items():
+            found |= {size: length for size, length in zip(shape, getattr(values, name).shape) if isinstance(size, str)}
+    return found | {"things": run.world.things, "words": 0, "bins": 1, "kinds": len(run.world.kinds),
+                    **{name: worlds.sizes_of(run.world)[name] for name in ("obstacles", "places", "trials")}}
+
+
+class Span(NamedTuple):
+    here: array("float64", "axes")
+    push: array("float64", "actions", "axes")
+
+
+def widened(record, name):
+    """An agent's record with as many rows as those of a module."""
+    wide = np.zeros((), wasm.MODULES[name].record)
+    for field in record.dtype.names:
+        if wide[field].shape != record[field].shape:
+            wide[field][: len(record[field])] = record[field]
+        else:
+            wide[field] = record[field]
+    return wide
 
 
 def state_of(run):
@@ -99,17 +115,17 @@ def state_of(run):
         return run.world_state
     plane = new_tuple(PlaneState, sizes_of(run), {})
     given = arrays(run.world_state)
-    for name, array in arrays(plane).items():
-        array[...] = given.get(name, 0)
+    for name, values in arrays(plane).items():
+        values[...] = given.get(name, 0)
     return plane
 
 
 def copied(run):
     """A machine with copies of a run's arrays, and the arguments of its exports."""
-    machine = Machine(32 + run.state.values.q.nbytes // 2**20, module_of(run))
+    machine = Machine(32 + run.memory.q.nbytes // 2**20, module_of(run))
     world_state = machine.put_tuple(state_of(run))
     return machine, sizes_of(run), {
-        "parameters": machine.put_tuple(run.parameters), "state": machine.put_tuple(run.state),
+        "agent": machine.put(widened(run._record, module_of(run))), "memory": machine.put_tuple(run.memory),
         "rules": machine.put_tuple(rules_of(run.world)), "world_state": world_state, "scene": world_state.scene,
         "total": 0.0, "clock": machine.put(np.zeros(2, np.int64)), "rewards": machine.put(np.zeros(1, np.float32)),
         "hits": machine.put(np.zeros((1, len(run.world.kinds)), np.int16))}

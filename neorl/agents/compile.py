@@ -10,48 +10,49 @@ import numpy as np
 
 from neorl import checks
 from neorl.agents.agent import FIRST_WORTH, LEARNED, Place
-from neorl.core import contacts, life
+from neorl.beyond import contacts
+from neorl.core import displacement, life
+from neorl.core.building import firsts, new_agent
+from neorl.core.called import Calls, Life, Own, choice, features, no_credit
 from neorl.core.calls import interpret
 from neorl.core.choices import Credit, MapState, Source, UpdateOn, Weighting
-from neorl.core.constants import Constants, choice, features, no_credit
-from neorl.core.kernel import new_tuple
-from neorl.core.modality import as_turns, axis_parameters, firsts, integers
-from neorl.core.parameters import ENTRIES, Parameters, derive, most_passed
+from neorl.core.derived import most_passed
+from neorl.core.modality import as_turns, axis_parameters, integers
+from neorl.core.record import ENTRIES
 from neorl.core.policy import greedy
 
 TRACE_STEPS = 64  # of the trace behind a contact; the contact's value, discounted over 1.3 s, is small
 
 
 def compiled(agent, world):
-    """The `Parameters` of an agent in a world.
+    """The record of an agent in a world, and its `neorl.core.record.Memory` as yet without values.
 
     Raises ValueError if the agent desires something that the world lacks, or has cells that have no meaning there.
     """
-    choices, sizes = chosen(agent, world)
-    parameters = new_tuple(Parameters, sizes, choices)
-    interpret(derive, parameters, world.things)
-    return parameters
+    return new_agent(chosen(agent, world), world.things)
 
 
-def constants_of(agent, world):
-    """The `Constants` of an agent in a world."""
-    whole = whole_constants(agent, world)
+def life_of(agent):
+    """The `Life` of an agent: the kernels that it calls, and None for those of which it has no need."""
+    whole = whole_life(agent)
     of_self = any(node.state != "object" for node in agent.nodes)
     of_contacts = any(node.goals == "contacts" for node in agent.nodes)
-    needed = {"feature": own_axes(agent), "credit": callable(agent.learning.credit),
-              "choose": agent.policy.choose is not greedy, "begin_self": of_self, "observe_self": of_self,
-              "begin_contacts": of_contacts, "observe_contacts": of_contacts, "evaluate_contacts": of_contacts}
-    return whole._replace(**{name: None for name, is_needed in needed.items() if not is_needed})
+    calls = {name: of_self if name.endswith("_self") else of_contacts for name in Calls._fields[1:]}
+    own = {"feature": own_axes(agent), "credit": callable(agent.learning.credit),
+           "choose": agent.policy.choose is not greedy}
+    return whole._replace(calls=_needed(whole.calls, calls)._replace(own=_needed(whole.calls.own, own)))
 
 
-def whole_constants(agent, world):
+def _needed(kernels, needed):
+    return kernels._replace(**{name: None for name, is_needed in needed.items() if not is_needed})
+
+
+def whole_life(agent):
     """The same, with all kernels."""
     credit = agent.learning.credit if callable(agent.learning.credit) else no_credit
-    return Constants(tuple(range(len(world.actions.names))), tuple(range(world.actions.axes)),
-                     len(world.actions.all_names) - 1, features(*own_axes(agent)), credit,
-                     choice(agent.policy.choose), life.begin, life.act, life.observe, life.begin_self,
-                     life.observe_self, contacts.begin_contacts, contacts.observe_contacts,
-                     contacts.evaluate_contacts)
+    own = Own(features(*own_axes(agent)), credit, choice(agent.policy.choose))
+    return Life(Calls(own, displacement.begin_self, displacement.observe_self, contacts.begin_contacts,
+                      contacts.observe_contacts, contacts.evaluate_contacts), life.begin, life.act, life.observe)
 
 
 def own_axes(agent):
@@ -82,11 +83,11 @@ def n_bytes(agent, world):
 
 
 def chosen(agent, world):
-    """The chosen `Parameters` (nested tuples as dicts), from which `derive` computes the others, and all sizes."""
+    """What an agent's record is made of, see `neorl.core.building`."""
     _check_meeting(agent, world)
     names, n_axes = [node.name for node in agent.nodes], world.actions.axes
     modalities = [node.modality for node in agent.nodes]
-    choices, sizes = axis_parameters(modalities, n_axes)
+    choices = axis_parameters(modalities, n_axes)
     choices["nodes"] |= {"learns_contacts": np.array([node.goals == "contacts" for node in agent.nodes], np.bool_),
                          "state": integers(MapState[node.state.replace(" ", "_")] for node in agent.nodes),
                          "ends": np.array([node.beyond == "none" for node in agent.nodes], np.bool_),
@@ -108,11 +109,8 @@ def chosen(agent, world):
         "learning": _learning(agent.learning, world.fps), "contacts": _contacts(agent, world.fps),
         "policy": {"exploration": agent.policy.exploration,
                    "indifferent_is_no_op": agent.policy.when_indifferent == "no-op",
-                   "is_greedy": agent.policy.choose is greedy}}
-    return choices, sizes | {
-        "frames": len(frames), "maps": len(agent.maps),
-        "map_axes": sum(len(nres_map.intervals) for nres_map in agent.maps),
-        "desires": len(agent.desires), "actions": len(world.actions.names), "axes": n_axes, "coordinates": coordinates}
+                   "is_greedy": agent.policy.choose is greedy, "last": len(world.actions.all_names) - 1}}
+    return choices
 
 
 def _check_meeting(agent, world):
@@ -195,7 +193,7 @@ def _contacts(agent, fps):
 
 
 def _frames(actions, name):
-    """The action that each action becomes in each mirror image, as `neorl.core.contacts.mirror` numbers them."""
+    """The action that each action becomes in each mirror image, as `neorl.beyond.contacts.mirror` numbers them."""
     frames = []
     exchanges = itertools.product(*(range(actions.axes - axis) for axis in reversed(range(actions.axes - 1))))
     for far, flips in itertools.product(exchanges, itertools.product((1, -1), repeat=actions.axes)):

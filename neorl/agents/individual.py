@@ -5,6 +5,7 @@ Parameters, state and values are read-only views. A saved file holds every array
 """
 
 from os import PathLike
+from types import SimpleNamespace
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -12,25 +13,21 @@ from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.agents.agent import LEARNED, Agent
-from neorl.agents.compile import compiled, constants_of, n_values, own_axes
+from neorl.agents.compile import compiled, life_of, n_values, own_axes
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
 from neorl.core import life
+from neorl.core.building import TABLES, clear_q, with_values
 from neorl.core.calls import execute
 from neorl.core.horde import as_vectors
 from neorl.core.kernel import arrays, mapped
 from neorl.core.modality import check_faults
-from neorl.core.parameters import ENTRIES, Parameters
-from neorl.core.state import State, new_state
+from neorl.core.record import ENTRIES, Memory
 from neorl.description import described, restored
 from neorl.files import read_arrays, write_arrays
 
-# The arrays of `State` that have a part for each map, by the array of where each part begins.
-OF_A_MAP = {"first_value": ("values.q",), "first_cell": ("values.goal_range",),
-            "first_track": ("tracks.cell", "tracks.events", "tracks.passed_count", "tracks.remembered_count",
-                            "contacts.frame"),
-            "first_passed": ("tracks.passed_at", "tracks.passed_rates"),
-            "first_trace": ("tracks.remembered", "tracks.remembered_at", "tracks.strength", "tracks.trace_weight",
-                            "tracks.trace_worth")}
+# The arrays of `Memory` that have a part for each map, by what the part begins and ends with.
+OF_A_MAP = {"cell": ("goal_range",), "track": ("tracks", "events"), "passed": ("passed_at", "passed_rates"),
+            "trace": ("remembered", "remembered_at", "strength", "trace_weight", "trace_worth")}
 
 
 class Output(NamedTuple):
@@ -50,14 +47,16 @@ class Individual:
 
     def _live(self, agent, world, stream, after=None):
         """Begin as an untrained agent. after: a finished one, whose memory is reused if it is large enough."""
-        old = None
-        if after is not None and len(after._state.values.q) >= n_values(agent, world):
-            old = after._parameters, after._state
+        q = None
+        if after is not None and len(after._memory.q) >= n_values(agent, world):
+            execute(clear_q, after._record, after._memory)
+            q = after._memory.q
         else:
             fitting_runs(agent, world)
         self._agent, self._world = agent, world
-        self._parameters = kept_apart(compiled(agent, world))
-        self._state = kept_apart(new_state(self._parameters, stream, world.things, old))
+        self._record, memory = compiled(agent, world)
+        self._record["stream"] = stream
+        self._record, self._memory = kept_apart(self._record), kept_apart(with_values(self._record, memory, q))
 
     @property
     def agent(self) -> Agent:
@@ -70,38 +69,44 @@ class Individual:
         return self._world
 
     @property
-    def parameters(self) -> Parameters:
-        """The agent's `Parameters`, as read-only views."""
-        return mapped(read_only, self._parameters)
+    def state(self) -> SimpleNamespace:
+        """The fields of the agent's record (`neorl.core.record`), as read-only views; of tables, the rows in use.
+
+        ``state.maps.cells`` is a column, with a number for each map, and ``state.maps[0].cells`` that of the first.
+        """
+        view = read_only(self._record)
+        fields = {name: getattr(view, name) if view[name].dtype.names else view[name][()] for name in view.dtype.names}
+        return SimpleNamespace(**fields | {name: fields[name][: fields[f"n_{name}"]] for name in TABLES})
 
     @property
-    def state(self) -> State:
-        """The agent's `neorl.core.state.State`, as read-only views."""
-        return mapped(read_only, self._state)
+    def memory(self) -> Memory:
+        """The agent's `neorl.core.record.Memory`, as read-only views."""
+        return mapped(read_only, self._memory)
 
     def q(self, index: int = 0) -> NDArray[np.float32]:
         """The values of one of the agent's maps, as a read-only view.
 
         float32 (cells, actions, cells), q[state, action, goal]; contiguous only if the agent bootstraps. If the state
         is the self, there is one: (1, actions, cells). For a node with contacts as goals (cells, actions, 3): approach,
-        fear, number of visits (see `neorl.core.contacts`).
+        fear, number of visits (see `neorl.beyond.contacts`).
 
         index: the map's position in `Agent.maps`. Raises ValueError if there is none.
         """
         index = checks.integer("index", index, at_least=0, at_most=len(self.agent.maps) - 1)
-        return read_only(_values_of(self.agent, self._parameters, self._state, index))
+        return read_only(_values_of(self.agent, self._record, self._memory, index))
 
     def output(self, name: str) -> Output:
         """The `Output` of the node called `name`. Raises ValueError if there is none."""
         checks.one_of("name", name, tuple(node.name for node in self.agent.nodes))
         inputs = [e for e, desire in enumerate(self.agent.desires) if desire.target == name]
-        q, valence = self._state.desires.q[inputs], self._state.desires.valence[inputs]
+        desires = self._record["desires"][inputs]
+        q, valence = desires["q"], desires["total_valence"]
         vectors = as_vectors(q, self.world.actions)
         return Output(q.sum(axis=0), np.sign(valence) @ vectors, float(valence.sum()))
 
     def _check_faults(self):
         """Raise ValueError for a kernel of the user's that has returned NaN to the agent."""
-        faults = self._state.faults
+        faults = self._record["faults"]
         if faults[0] or faults[1]:
             check_faults(faults, own_axes(self.agent), self.agent.learning.credit)
 
@@ -115,31 +120,30 @@ class Individual:
         the free memory.
         """
         fitting_runs(checks.instance("agent", agent, Agent), self.world)
-        parameters = kept_apart(compiled(agent, self.world))
-        state = kept_apart(new_state(parameters, self._state.stream, self.world.things))
-        execute(life.begin, parameters, constants_of(agent, self.world), state, self._scene)
-        old, new = arrays(self._state), arrays(state)
+        record, memory = compiled(agent, self.world)
+        record["stream"] = self._record["stream"]
+        record, memory = kept_apart(record), kept_apart(with_values(record, memory))
+        execute(life.begin, record, memory, self._scene, life_of(agent).calls)
         old_maps = {key: m for m, key in enumerate(_map_keys(self.agent))}
         for m, key in enumerate(_map_keys(agent)):
-            if key in old_maps:
-                for firsts, names in OF_A_MAP.items():
-                    of_old, of_new = getattr(self._parameters.maps, firsts), getattr(parameters.maps, firsts)
-                    begin_old, end_old = of_old[old_maps[key] : old_maps[key] + 2]
-                    begin, end = of_new[m : m + 2]
-                    for name in names:
-                        if name == "values.q":  # copied below, since its order depends on the learning rule
-                            continue
-                        width = len(new[name]) // max(of_new[-1], 1)
-                        new[name][width * begin : width * end] = old[name][width * begin_old : width * end_old]
-                _values_of(agent, parameters, state, m)[...] = _values_of(self.agent, self._parameters, self._state,
-                                                                          old_maps[key])
+            if key not in old_maps:
+                continue
+            was, now = self._record["maps"][old_maps[key]], record["maps"][m]
+            for part, names in OF_A_MAP.items():
+                for name in names:
+                    old, new = getattr(self._memory, name), getattr(memory, name)
+                    width = 2 * len(self.world.actions.names) if name.startswith("trace_") else 1
+                    new[width * now[f"first_{part}"] : width * now[f"end_{part}"]] = old[
+                        width * was[f"first_{part}"] : width * was[f"end_{part}"]]
+            _values_of(agent, record, memory, m)[...] = _values_of(self.agent, self._record, self._memory,
+                                                                   old_maps[key])
         for name in ("last_event", "activity"):
-            new[name][:] = old[name]
+            record[name] = self._record[name]
         for e, desire in enumerate(agent.desires):
             if desire.valence == LEARNED and desire in self.agent.desires:
-                for name in ("desires.worth", "desires.meetings"):
-                    new[name][e] = old[name][self.agent.desires.index(desire)]
-        vars(self).update(_agent=agent, _parameters=parameters, _state=state)  # at once, even if interrupted
+                for name in ("worth", "meetings"):
+                    record["desires"][name][e] = self._record["desires"][name][self.agent.desires.index(desire)]
+        vars(self).update(_agent=agent, _record=record, _memory=memory)  # at once, even if interrupted
         self._bind()
 
     def transfer(self, other: "Individual") -> None:
@@ -152,8 +156,8 @@ class Individual:
             raise ValueError(f"other must have the maps {self.agent.maps} and {len(self.world.actions.names)} actions, "
                              f"but has {maps} and {len(other.world.actions.names)}")
         for m in range(len(maps)):
-            _values_of(self.agent, self._parameters, self._state, m)[...] = other.q(m)
-        self._state.values.goal_range[:] = other._state.values.goal_range
+            _values_of(self.agent, self._record, self._memory, m)[...] = other.q(m)
+        self._memory.goal_range[:] = other._memory.goal_range
 
     def copy(self) -> Self:
         """An independent copy, which continues from here bit for bit the same."""
@@ -168,11 +172,11 @@ class Individual:
         return self.copy()
 
     def __getstate__(self):  # without compiled code, which `_bind` finds again
-        return {name: getattr(self, name) for name in ("_agent", "_world", "_parameters", "_progress", *self._kept)}
+        return {name: getattr(self, name) for name in ("_agent", "_world", "_progress", *self._kept)}
 
     def __setstate__(self, state):
         vars(self).update(state)
-        for name in ("_parameters", *self._kept):
+        for name in self._kept:
             setattr(self, name, kept_apart(getattr(self, name)))
         self._bind()
 
@@ -210,11 +214,11 @@ class Individual:
         return loaded
 
 
-def _values_of(agent, parameters, state, m):
+def _values_of(agent, record, memory, m):
     """The values of a map in the layout of `Individual.q`, as a view."""
-    first, end = parameters.maps.first_value[m : m + 2]
-    values, cells, actions = state.values.q[first:end], agent.maps[m].cells, len(parameters.push)
-    node = [node for node in agent.nodes for _ in node.resolutions][m]
+    nres, node = record["maps"][m], [node for node in agent.nodes for _ in node.resolutions][m]
+    values, cells = memory.q[nres["first_value"] : nres["end_value"]], nres["cells"]
+    actions = len(record["push"])
     if node.state != "object":
         return values.reshape(1, cells, actions).swapaxes(1, 2)
     if node.goals == "contacts":

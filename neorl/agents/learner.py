@@ -8,13 +8,14 @@ import numpy as np
 
 from neorl import checks
 from neorl.agents.agent import Agent
-from neorl.agents.compile import constants_of
+from neorl.agents.compile import life_of
 from neorl.agents.individual import Individual
 from neorl.agents.memory import kept_apart
 from neorl.checks import LARGEST
-from neorl.core import life
+from neorl.core.called import Life
 from neorl.core.calls import bound
-from neorl.core.kernel import kernel, mapped, new_tuple
+from neorl.core.kernel import kernel, mapped, new_tuple, tabled
+from neorl.core.record import Memory, Record
 from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
 from neorl.core.stream import new_stream
 
@@ -56,7 +57,7 @@ class Learner(Individual):
     not fit into the free memory.
     """
 
-    _kept = ("_state", "_scene")
+    _kept = ("_record", "_memory", "_scene")
 
     def __init__(self, agent: Agent, things: int = 0, kinds: Sequence[str] = (), actions: Actions = CARDINAL,
                  seed: int = 0, size: float = 1.0, fps: float = 50) -> None:
@@ -75,9 +76,8 @@ class Learner(Individual):
 
     def _bind(self):
         self._offered = mapped(np.copy, self._scene)
-        constants = constants_of(self.agent, self.world)
-        self._calls = [bound(each, self._parameters, constants, self._state, self._scene)
-                       for each in (life.begin, life.act, life.observe)]
+        here = Here(self._record, self._memory, self._scene, life_of(self.agent))
+        self._calls = [bound(each, here) for each in (begin, act, observe)]
         self._accept = bound(accept, Offer(len(self.world.kinds), self._offered), self._scene)
         self._numbers = {None: ABSENT, **{name: number for number, name in enumerate(self.world.kinds)},
                          **{number: number for number in range(ABSENT, len(self.world.kinds))}}
@@ -124,7 +124,7 @@ class Learner(Individual):
             raise RuntimeError("observe(scene) must follow act(), but came before it")
         reward = checks.real("reward", reward)
         self._take(scene)
-        self._state.reward[0] = reward
+        self._record["reward"] = reward
         self._calls[2]()
         self._progress = "to act"
         self._check_faults()
@@ -157,6 +157,34 @@ class Learner(Individual):
                 _put("met", offered.met, met)
         if not self._accept():
             raise checks.error("scene", f"of finite numbers from {-LARGEST:g} to {LARGEST:g}", scene)
+
+
+@tabled
+class Here(NamedTuple):
+    """An agent in a scene: all that its steps take, by one pointer, since Python takes long to pass a record."""
+
+    agent: Record
+    memory: Memory
+    scene: Scene
+    life: Life
+
+
+@kernel
+def begin(here: Here) -> None:
+    """Begin at the scene."""
+    here.life.begin(here.agent, here.memory, here.scene, here.life.calls)
+
+
+@kernel
+def act(here: Here) -> int:
+    """Choose an action."""
+    return here.life.act(here.agent, here.memory, here.scene, here.life.calls)
+
+
+@kernel
+def observe(here: Here) -> None:
+    """Learn from the scene."""
+    here.life.observe(here.agent, here.memory, here.scene, here.life.calls)
 
 
 class Offer(NamedTuple):

@@ -76,7 +76,7 @@ AT_EVERY_STEP = {"credit": "share", "absent_decay": 0.0, "memory": 0.0, "bootstr
 
 @dataclass(frozen=True)
 class Contacts(checks.Final):
-    """How nodes with contacts as their only goals learn, see `neorl.core.contacts`: beyond the thesis.
+    """How nodes with contacts as their only goals learn, see `neorl.beyond.contacts`: beyond the thesis.
 
     The defaults are the best values found by `notebooks/companion/beyond_agents/search.py`.
 

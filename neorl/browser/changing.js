@@ -5,13 +5,17 @@ function become(choices) {
   const old = run;
   const keys = mapKeys(choices);
   const isOrdered = choices.learning.bootstrap === old.choices.learning.bootstrap;
-  if (isOrdered && choices.desires.source.length === old.sizes.desires && keys.join() === mapKeys(old.choices).join()) {
-    take(run.parameters, choices);
-    run.choices = choices;
+  const laid = laidOut(choices);
+  if (isOrdered && same(laid.sizes, old.laid.sizes) && same(laid.agent.n_desires, old.laid.agent.n_desires)
+    && same(keys, mapKeys(old.choices))) {
+    assign(run.agent, laid.agent);
+    for (const [name, values] of Object.entries(laid.memory)) fill(run.memory[name], values);
+    Object.assign(run, { choices, laid });
     call("derive", { n_things: run.sizes.things });
-    const { worth, meetings, ...ofBefore } = run.state.desires;
-    for (const each of Object.values(ofBefore)) each.fill(0);
-    choices.desires.valence.forEach((valence, e) => { if (!choices.desires.learned[e]) worth[e] = valence; });
+    for (const desire of run.agent.desires) {
+      for (const values of [desire.q, desire.target_at]) values.fill(0);
+      Object.assign(desire, { target_valence: 0, total_valence: 0 });
+    }
   } else {
     run = newRun({ ...old, parameters: choices });
     copy(run.world_state, old.world_state);
@@ -23,7 +27,8 @@ function become(choices) {
     Object.assign(run, { step, reward, player, changes, trail });
     call("begin_values");
     call("begin");
-    for (const name of ["stream", "last_event", "activity"]) run.state[name].set(old.state[name]);
+    for (const name of ["stream", "activity"]) run.agent[name].set(old.agent[name]);
+    run.agent.last_event = old.agent.last_event;
     const oldKeys = mapKeys(old.choices);
     keys.forEach((key, m) => oldKeys.includes(key) && keepMap(old, oldKeys.indexOf(key), m));
     const isKept = keys.includes(oldKeys[mapNames(old.choices).indexOf(look.map)]);
@@ -39,15 +44,7 @@ function copy(to, from) {
   }
 }
 
-/** Write the chosen parameters; a field that is not chosen is derived. */
-function take(parameters, choices) {
-  for (const [name, value] of Object.entries(parameters)) {
-    if (!(name in choices)) continue;
-    if (ArrayBuffer.isView(value)) fill(value, choices[name]);
-    else if (typeof value === "object") take(value, choices[name]);
-    else parameters[name] = choices[name];
-  }
-}
+const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
 function mapKeys({ names, maps, nodes, axes, learning }) {
   return maps.resolution.map((each, m) => {
@@ -64,16 +61,17 @@ function mapKeys({ names, maps, nodes, axes, learning }) {
 
 /** Copy an old run's values of a map, its active cells, and its memory of how they were reached. */
 function keepMap(old, from, to) {
-  for (const [firsts, fields] of Object.entries(layout.of_a_map)) {
-    const [ofOld, ofNew] = [old.parameters.maps[firsts], run.parameters.maps[firsts]];
-    const [begin, end] = [ofOld[from], ofOld[from + 1]].map(Number);
-    for (const [part, name] of fields.map((field) => field.split("."))) {
-      const kept = old.state[part][name];
-      const width = kept.length / Number(ofOld.at(-1));
-      const moved = kept.subarray(begin * width, end * width);
-      run.state[part][name].set(name === "q" ? reordered(moved, old, from) : moved, Number(ofNew[to]) * width);
+  const [was, now] = [old.agent.maps, run.agent.maps];
+  for (const [part, names] of Object.entries(layout.of_a_map)) {
+    const [first, end] = [`first_${part}`, `end_${part}`];
+    for (const name of names.filter(() => was[from][end] > was[from][first])) {
+      const width = old.memory[name].length / was.at(-1)[end];
+      const kept = old.memory[name].subarray(was[from][first] * width, was[from][end] * width);
+      run.memory[name].set(kept, now[to][first] * width);
     }
   }
+  const values = old.memory.q.subarray(was[from].first_value, was[from].end_value);
+  run.memory.q.set(reordered(values, old, from), now[to].first_value);
 }
 
 /** A function of state, action and goal: the place of their value in a map (neorl.core.learning.Order). */
@@ -82,10 +80,10 @@ const placeOf = ({ learning: { bootstrap } }, cells, actions) => (state, action,
 
 /** The values of a map of an old run, reordered as in the present run. */
 function reordered(values, old, m) {
-  const { choices: { nodes }, parameters: { maps } } = old;
+  const { choices: { nodes }, agent: { maps } } = old;
   const isSquare = !nodes.learns_contacts[nodeOf(nodes.first_map, m)] && !isOfSelf(old.choices, m);
   if (old.choices.learning.bootstrap === run.choices.learning.bootstrap || !isSquare) return values;
-  const [cells, actions] = [Number(maps.cells[m]), old.sizes.actions];
+  const [{ cells }, { actions }] = [maps[m], old.sizes];
   const [before, now] = [old, run].map((each) => placeOf(each.choices, cells, actions));
   const moved = values.slice();
   for (let at = 0; at < moved.length; at += 1) {

@@ -13,64 +13,102 @@ let run = null;
 // The name of a map, a cell of it, and the tiles along each side of the superposed value as a field and as a heat map.
 let look = { map: "", goal: null, field: 0, heat: 0 };
 
-/** A run in a machine of its own, with its parameters derived and everything else at 0. */
-function newRun({ parameters: choices, world, steps, bin_steps }) {
-  const { maps, nodes, axes, desires, contacts, frames, push } = choices;
-  const sizes = {
-    maps: maps.resolution.length, map_axes: mapAxes(choices), nodes: nodes.follows.length,
-    node_axes: axes.what.length, boundaries: axes.boundary.length, landmarks: nodes.landmark.length,
-    frames: frames.length, left: contacts.trace, desires: desires.source.length, coordinates: choices.coordinates,
-    actions: push.length, axes: push[0].length, things: world.things, ...world.sizes,
-    kinds: world.kinds.length, bins: Math.ceil(steps / bin_steps),
-  };
-  const draft = new Machine(2 ** 20 + bytesOf("Parameters", sizes)); // the memory of a run follows from its parameters
-  const derived = draft.tuple("Parameters", sizes, choices);
-  draft.call("derive", sizes, { parameters: derived, n_things: sizes.things });
-  const last = (name) => Number(derived.maps[name].at(-1));
-  Object.assign(sizes, { values: last("first_value"), cells: last("first_cell"), tracks: last("first_track"),
-    traces: last("first_trace"), passed: last("first_passed") });
-  sizes.scratch = sizes.actions * sizes.cells;
-  sizes.trace_weights = 2 * sizes.actions * sizes.traces;
+// The fields of an agent's record that are chosen as they are, besides its tables.
+const CHOSEN = ["size", "own_cell_counts", "shared_cell_counts_once", "notices_resets", "learning", "contacts", "policy"];
+// The sizes of what an agent learns, which follow from its record.
+const OF_VALUES = ["values", "cells", "scratch", "tracks", "traces", "trace_weights", "passed", "left"];
 
-  const bytes = 2 ** 20 + 8 * sizes.bins + bytesOf("Parameters", sizes) + bytesOf("State", sizes)
-    + bytesOf("State", { ...sizes, values: 0 }) + 3 * bytesOf(layout.state, sizes) + bytesOf(layout.rules, sizes);
-  const machine = new Machine(bytes);
-  const state = machine.tuple("State", sizes);
+/** A run in a machine of its own, with its agent's record derived and everything else at 0. */
+function newRun({ parameters: choices, world, steps, bin_steps }) {
+  const laid = laidOut(choices);
+  const [actions, axes] = [choices.push.length, choices.push[0].length];
+  const sizes = { ...laid.sizes, actions, axes, things: world.things, ...world.sizes, kinds: world.kinds.length,
+    bins: Math.ceil(steps / bin_steps), ...Object.fromEntries(OF_VALUES.map((name) => [name, 0])) };
+  const bytes = 2 ** 20 + 2 * layout.records.Agent.size + bytesOf("Memory", sizes);
+  const last = newAgent(new Machine(bytes), sizes, laid).agent.maps.at(-1);
+  Object.assign(sizes, { values: last.end_value, cells: last.end_cell, scratch: actions * last.end_cell,
+    tracks: last.end_track, traces: last.end_trace, trace_weights: 2 * actions * last.end_trace,
+    passed: last.end_passed, left: choices.contacts.trace });
+
+  const machine = new Machine(bytes + 8 * sizes.bins + bytesOf("Memory", sizes)
+    + bytesOf("Memory", { ...sizes, values: 0 }) + 3 * bytesOf(layout.state, sizes) + bytesOf(layout.rules, sizes));
+  const { agent, memory } = newAgent(machine, sizes, laid);
   const worldState = machine.tuple(layout.state, sizes);
   const { position, velocity, ...shared } = worldState.scene;
-  const { q, goal_range } = state.values;
-  const made = {
-    machine, sizes, world, steps, bin_steps, choices, state, world_state: worldState, scene: worldState.scene,
-    rules: machine.tuple(layout.rules, sizes, world.rules), step: 0, reward: 0,
-    parameters: machine.tuple("Parameters", sizes, choices),
+  const { q, goal_range, ...derived } = memory;
+  const known = Object.fromEntries(["cuts", ...Object.keys(laid.memory), "goals"].map((name) => [name, derived[name]]));
+  return {
+    machine, sizes, world, steps, bin_steps, choices, laid, agent, memory, world_state: worldState,
+    scene: worldState.scene, rules: machine.tuple(layout.rules, sizes, world.rules), step: 0, reward: 0,
     clock: machine.put("int64", [2]),
     rewards: machine.put("float32", [sizes.bins]),
     hits: machine.put("int16", [sizes.bins, sizes.kinds]),
-    elsewhere: machine.tuple("State", sizes, { values: { q, goal_range } }),
+    double: machine.record("Agent"), // the agent elsewhere, with a memory that has its values but tracks of its own
+    elsewhere: machine.tuple("Memory", sizes, { q, goal_range, ...known }),
     there: machine.tuple("Scene", sizes, { ...shared, velocity }),
     second: machine.tuple("Scene", sizes, shared), // a second body in the same tank
     player: null, slice: 16, trail: [],
   };
-  machine.call("derive", sizes, { parameters: made.parameters, n_things: sizes.things });
+}
+
+/** An agent in a machine, with its record derived. */
+function newAgent(machine, sizes, laid) {
+  const made = { agent: machine.record("Agent", laid.agent), memory: machine.tuple("Memory", sizes, laid.memory) };
+  machine.call("derive", sizes, { ...made, n_things: sizes.things });
   return made;
 }
 
-/** The number of axes of all maps together. */
-function mapAxes({ nodes: { first_map, first_axis, follows } }) {
-  return follows.reduce((sum, _, n) =>
-    sum + (first_map[n + 1] - first_map[n]) * (first_axis[n + 1] - first_axis[n]), 0);
+/** What `neorl.core.building` makes of choices: the fields of an agent's record, arrays of its memory, and sizes. */
+function laidOut(choices) {
+  const { nodes, maps, axes, desires, frames, push } = choices;
+  const { Source } = layout.enumerations;
+  const row = (columns, index) => Object.fromEntries(Object.entries(columns).map(([name, column]) =>
+    [name, column[index]]));
+  const lengthAt = (begins, index) => begins[index + 1] - begins[index];
+  const isPoint = desires.source.map((source) => source === Source.point);
+  const elements = desires.elements.map((among) => among.flatMap((is, e) => (is ? [e] : [])));
+  const points = desires.at.map((at, e) => at.slice(0, isPoint[e] ? lengthAt(nodes.first_axis, desires.target[e]) : 0));
+  const goals = desires.target.map((n, e) => (isPoint[e] ? lengthAt(nodes.first_map, n) : 0));
+  const [firstElement, firstPoint] = [elements, points].map((lists) => firsts(lists.map(({ length }) => length)));
+  const firstGoal = firsts(goals);
+  const tables = {
+    nodes: nodes.follows.map((_, n) => ({ ...row(nodes, n), end_map: nodes.first_map[n + 1],
+      axes: lengthAt(nodes.first_axis, n), landmarks: lengthAt(nodes.first_landmark, n) })),
+    maps: maps.resolution.map((resolution, m) => ({ resolution, node: nodeOf(nodes.first_map, m) })),
+    axes: axes.what.map(([vector, feature, along, cut, intervals], axis) => ({ ...row(axes, axis), vector, feature,
+      along, cut, intervals, end_boundary: axes.first_boundary[axis + 1] })),
+    desires: desires.source.map((_, e) => ({ ...row(desires, e), place: desires.at[e].slice(0, push[0].length),
+      first_element: firstElement[e], end_element: firstElement[e + 1], first_coordinate: firstPoint[e],
+      first_goal: firstGoal[e] })),
+  };
+  const chosen = Object.fromEntries(CHOSEN.map((name) => [name, choices[name]]));
+  const counts = Object.fromEntries(Object.entries(tables).map(([name, { length }]) => [`n_${name}`, length]));
+  if (Math.max(...Object.values(counts)) > layout.rows) {
+    throw new Refusal(`An agent in a page can have ${layout.rows} nodes, maps, axes and desires. Choose fewer.`);
+  }
+  const memory = { points: points.flat(), elements: elements.flat(), boundary: axes.boundary,
+    landmark: nodes.landmark.flat(), frames: frames.flat() };
+  return {
+    agent: { ...counts, ...tables, ...chosen, push, order: nodes.order }, memory,
+    sizes: { coordinates: memory.points.length, elements: memory.elements.length, goals: firstGoal.at(-1),
+      cuts: maps.resolution.reduce((sum, _, m) => sum + lengthAt(nodes.first_axis, nodeOf(nodes.first_map, m)), 0),
+      boundaries: axes.boundary.length, landmarks: nodes.landmark.length, frames: frames.length },
+  };
 }
+
+/** Where each of several lists of given lengths begins, one after the other, and where the last ends. */
+const firsts = (lengths) => lengths.reduce((begins, length) => [...begins, begins.at(-1) + length], [0]);
 
 const call = (name, more = {}) => run.machine.call(name, { ...run.sizes, ...more }, { ...run, ...more });
 
 function begin(request) {
-  const taught = request.keeps ? run.state.values : null; // of a run of the same agent, as in `Run.transfer`
+  const taught = request.keeps ? run.memory : null; // of a run of the same agent, as in `Run.transfer`
   run = null; // so that its memory can be freed before the next is allocated
   ({ layout, compiled } = modules[request.world.module]);
   run = newRun(request);
   run.changes = [...(request.changes ?? [])];
   const { seed, run: index } = request;
-  for (const [key, stream] of [[[index], run.world_state.stream], [[index, 0], run.state.stream]]) {
+  for (const [key, stream] of [[[index], run.world_state.stream], [[index, 0], run.agent.stream]]) {
     const words = run.machine.put("uint64", [4 + key.length]);
     words.set([seed, 0, 0, 0, ...key].map(BigInt));
     run.machine.call("start_stream", { words: words.length }, { words, stream });
@@ -78,7 +116,7 @@ function begin(request) {
   call("reset", { state: run.world_state });
   call("begin_values");
   call("begin");
-  for (const name of taught ? ["q", "goal_range"] : []) run.state.values[name].set(taught[name]);
+  for (const name of taught ? ["q", "goal_range"] : []) run.memory[name].set(taught[name]);
   lookAt({ map: request.map, goal: null, field: request.field, heat: request.heat });
   return frame();
 }
@@ -99,12 +137,14 @@ function mapNames({ names, maps, nodes }) {
   return maps.resolution.map((each, m) => `${names[nodeOf(nodes.first_map, m)]} N${each}`);
 }
 
-/** The numbers of intervals of a map along its axes, such as "5 × 5". */
-function shapeOf(m) {
-  const { grid, maps: { first_grid } } = run.parameters;
-  const rows = grid.subarray(5 * Number(first_grid[m]), 5 * Number(first_grid[m + 1]));
-  return Array.from({ length: rows.length / 5 }, (_, axis) => rows[5 * axis + 2] + 1).join(" × ");
+/** How a map cuts the axes of its node. */
+function cutsOf(m) {
+  const { first_cut, node } = run.agent.maps[m];
+  return rowsOf(run.memory.cuts, "CUT", first_cut, first_cut + run.agent.nodes[node].axes);
 }
+
+/** The numbers of intervals of a map along its axes, such as "5 × 5". */
+const shapeOf = (m) => cutsOf(m).map(({ last }) => last + 1).join(" × ");
 
 /** The name of an enumeration's member, by number. */
 const nameOf = (enumeration, number) =>
@@ -131,12 +171,11 @@ function seen(m) {
 
 /** How a map divides the axes of the vector that its node follows: other axes cannot be drawn in the world. */
 function axesOf(m) {
-  const { choices: { nodes, axes }, parameters: { grid, maps } } = run;
-  const n = nodeOf(nodes.first_map, m);
+  const { nodes, axes } = run.choices;
+  const [n, cuts] = [nodeOf(nodes.first_map, m), cutsOf(m)];
   const [first, end] = [nodes.first_axis[n], nodes.first_axis[n + 1]];
   return axes.what.slice(first, end).flatMap(([vector, feature, along, cut], axis) => {
-    const row = 5 * (Number(maps.first_grid[m]) + axis);
-    const [low, scale, last, , stride] = grid.slice(row, row + 5);
+    const { low, scale, last, stride } = cuts[axis];
     const inner = axes.boundary.slice(axes.first_boundary[first + axis], axes.first_boundary[first + axis + 1]);
     const borders = nameOf("Cut", cut) === "boundaries" ? [axes.low[first + axis], ...inner, axes.high[first + axis]]
       : Array.from({ length: last + 2 }, (_, index) => low + index / scale);
@@ -212,13 +251,13 @@ function drag({ creep, x, y }) {
 }
 
 function frame(steps = 0) {
-  const { state, scene, world, second, player, parameters, choices, choices: { size } } = run;
+  const { agent: { maps: nresMaps, desires }, memory, scene, world, second, player, choices, choices: { size } } = run;
   const body = ({ position: at, velocity: moving }) =>
     ({ x: at[0] / size, y: at[1] / size, vx: moving[0] / size, vy: moving[1] / size });
   const agent = body(scene);
   const maps = mapNames(choices);
   const m = maps.indexOf(look.map);
-  const [from, to] = [parameters.maps.first_track[m], parameters.maps.first_track[m + 1]].map(Number);
+  const { first_track: from, end_track: to } = nresMaps[m];
   return {
     type: "frame", step: run.step, ended: run.step >= run.steps, reward: run.reward, rewards: run.rewards.slice(),
     maps, shapes: maps.map((_, each) => shapeOf(each)), seen: seen(m), steps, agent, things: thingsOf(run),
@@ -227,11 +266,11 @@ function frame(steps = 0) {
     hits: world.kinds.map((kind, k) => ({ kind, counts: run.hits.filter((_, i) => i % world.kinds.length === k) })),
     wants: choices.desires.kind.flatMap((kind, e) =>
       (kind < 0 ? [] : [{ kind: world.kinds[kind], valence: choices.desires.valence[e] }])),
-    active: learnsContacts(m) ? [] : Array.from(state.tracks.cell.subarray(from, to), Number),
+    active: learnsContacts(m) ? [] : rowsOf(memory.tracks, "TRACK", from, to).map(({ cell }) => cell),
     nodes: choices.names.map((name, n) => ({ name, ...desire(n) })),
     landings: choices.edges.flatMap(({ source, target }, e) => (source === "" ? [] : [{
-      source, target, recurs: source === target, valence: state.desires.valence[e],
-      x: agent.x + state.desires.target[3 * e], y: agent.y + state.desires.target[3 * e + 1],
+      source, target, recurs: source === target, valence: desires[e].total_valence,
+      x: agent.x + desires[e].target_at[0], y: agent.y + desires[e].target_at[1],
     }])),
     field: look.field ? field(look.field) : null, heat: look.heat ? heat(look.heat) : null,
   };
@@ -239,14 +278,12 @@ function frame(steps = 0) {
 
 /** The desire vector of a node and its valence, as `Run.output` has it. */
 function desire(node) {
-  const { q, valence } = run.state.desires;
   const total = { x: 0, y: 0, valence: 0 };
-  run.parameters.desires.target.forEach((target, e) => {
-    if (Number(target) !== node) return;
-    const [x, y] = asVector(run, (action) => q[run.sizes.actions * e + action]);
-    total.x += Math.sign(valence[e]) * x;
-    total.y += Math.sign(valence[e]) * y;
-    total.valence += valence[e];
+  run.agent.desires.filter(({ target }) => target === node).forEach(({ q, total_valence: valence }) => {
+    const [x, y] = asVector(run, (action) => q[action]);
+    total.x += Math.sign(valence) * x;
+    total.y += Math.sign(valence) * y;
+    total.valence += valence;
   });
   return total;
 }
@@ -263,7 +300,8 @@ function vectors(count, valueOf) {
 function survey(side) {
   const [tiles, { actions }] = [side * side, run.sizes];
   run.values = run.values?.length === actions * tiles ? run.values : run.machine.put("float64", [tiles, actions]);
-  call("survey", { side, tiles });
+  run.double.bytes.set(run.agent.bytes);
+  call("survey", { memory: run.elsewhere, side, tiles });
   return { tiles, valueOf: (tile, action) => run.values[actions * tile + action] };
 }
 
@@ -281,8 +319,8 @@ function heat(side) {
 
 /** The learned value function of a goal, as a vector in every cell of a map; of all goals, if its state is the self. */
 function valueFunction(map, goal) {
-  const { parameters: { maps }, sizes: { actions }, state: { values: { q } } } = run;
-  const [first, cells] = [Number(maps.first_value[map]), Number(maps.cells[map])];
+  const { sizes: { actions }, memory: { q } } = run;
+  const { first_value: first, cells } = run.agent.maps[map];
   if (isOfSelf(run.choices, map)) return vectors(cells, (cell, action) => q[first + actions * cell + action]);
   const place = placeOf(run.choices, cells, actions);
   return vectors(cells, (cell, action) => q[first + place(cell, action, goal)]);
@@ -293,7 +331,8 @@ function cellSeenAt(at) {
   const { scene: { things }, choices: { size } } = run;
   const before = things.slice(0, 2);
   things.set([at.x * size, at.y * size].slice(0, things.length));
-  const cell = call("cell_seen_at", { m: mapNames(run.choices).indexOf(look.map), ...at });
+  run.double.bytes.set(run.agent.bytes);
+  const cell = call("cell_seen_at", { agent: run.double, m: mapNames(run.choices).indexOf(look.map), ...at });
   things.set(before);
   return cell < 0 ? null : cell;
 }
@@ -312,7 +351,7 @@ const REQUESTS = {
   look({ type, at, ...choice }) {
     lookAt(choice);
     const cell = at && cellSeenAt(at);
-    if (look.goal >= Number(run.parameters.maps.cells[mapNames(run.choices).indexOf(look.map)])) look.goal = null;
+    if (look.goal >= run.agent.maps[mapNames(run.choices).indexOf(look.map)].cells) look.goal = null;
     if (at && !learnsContacts(mapNames(run.choices).indexOf(look.map))) look.goal = cell === look.goal ? null : cell;
     return frame();
   },

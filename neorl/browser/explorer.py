@@ -23,7 +23,7 @@ import numpy as np
 from neorl import checks
 from neorl.agents import beyond, papers, spaces
 from neorl.agents.agent import LEARNED, STATES, Agent, Desire, Node
-from neorl.agents.compile import chosen, whole_constants
+from neorl.agents.compile import chosen, whole_life
 from neorl.agents.rules import Learning, Policy
 from neorl.browser import wasm
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
@@ -258,7 +258,7 @@ def _check_condition(name, condition):
         raise checks.error(f"world of condition {name}", "one of the package's, to be shown in the Explorer",
                            condition.world)
     for each in (agent, *(later for _, later in condition.changes)):
-        if whole_constants(each, condition.world) != wasm.MODULES[_module_of(condition.world)].constants:
+        if whole_life(each) != wasm.MODULES[_module_of(condition.world)].life:
             raise ValueError(f"condition {name} must have the kernels that are compiled for the page, with the greedy "
                              "choice, but has its own, for an axis, the credit or the choice of an action")
 
@@ -343,11 +343,11 @@ def _without_ranges(modality):
 
 def _parameters(agent, world):
     """The chosen parameters, ready for JSON, and the names that the page shows."""
-    choices, sizes = chosen(agent, world)
+    choices = chosen(agent, world)
     edges = [{"source": each.source if agent.comes_from_node(each) else "", "target": each.target, "of": list(each.of)}
              for each in agent.desires]
     return _as_json(choices) | {"names": [node.name for node in agent.nodes], "edges": edges,
-                                "coordinates": sizes["coordinates"]}
+                                "coordinates": choices["desires"]["at"].shape[1]}
 
 
 def _as_json(values):
@@ -371,6 +371,6 @@ def _band(result):
 
 def _modalities():
     """The parameters of a node of each modality, by name, and whether its state can be chosen."""
-    return {each.name: _as_json(axis_parameters([each], WaterWorld.actions.axes)[0]) | {
+    return {each.name: _as_json(axis_parameters([each], WaterWorld.actions.axes)) | {
                 "stated": _stated([Node(each.name, each, [1])], Learning(), WaterWorld()) == [0]}
             for each in MODALITIES if each.takes_places}

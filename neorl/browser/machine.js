@@ -1,6 +1,6 @@
-// The memory of the engine's kernels: arrays, named tuples of them, and calls with these.
+// The memory of the engine's kernels: arrays, named tuples of them, records, and calls with these.
 //
-// `layout` has the fields of tuples and the arguments of kernels; this file is independent of their meaning.
+// `layout` has the fields of tuples and records, and the arguments of kernels; this file is independent of their meaning.
 
 const ARRAYS = {
   float64: Float64Array, float32: Float32Array, int64: BigInt64Array, uint64: BigUint64Array, int16: Int16Array,
@@ -39,12 +39,19 @@ class Machine {
   }
 
   put(dtype, shape, values) {
-    const count = shape.reduce((product, each) => product * each, 1);
     const at = this.free();
-    this.end = at + count * ARRAYS[dtype].BYTES_PER_ELEMENT;
-    const array = new ARRAYS[dtype](this.memory.buffer, at, count);
+    const array = view(this.memory.buffer, dtype, at, shape);
+    this.end = at + array.byteLength;
     if (values) fill(array, values);
     return array;
+  }
+
+  /** A record, filled with given values. */
+  record(kind, given = {}) {
+    const bytes = this.put("int8", [layout.records[kind].size]);
+    const record = recordIn(this.memory.buffer, kind, bytes.byteOffset);
+    assign(record, given);
+    return Object.assign(record, { bytes });
   }
 
   /** A named tuple. Its scalars are given; arrays may be given, from another tuple or JSON, and are otherwise 0. */
@@ -80,6 +87,7 @@ function wordsOf(kinds, given, sizes) {
     if (typeof field === "string") return wordsOf(layout.tuples[field], value, sizes);
     const [dtype, shape] = field;
     if (shape === null) return [[dtype, value]];
+    if (dtype === "Agent") return [["int64", value.bytes.byteOffset]];
     return [["int64", value.byteOffset], ...shape.map((each) => ["int64", lengthOf(each, sizes)])];
   });
 }
@@ -92,7 +100,7 @@ function lengthOf(dimension, sizes) {
 
 function fill(array, values) {
   const flat = values.flat();
-  array.set(array instanceof BigInt64Array ? flat.map(BigInt) : flat);
+  array.set(array instanceof BigInt64Array || array instanceof BigUint64Array ? flat.map(BigInt) : flat);
 }
 
 function bytesOf(kind, sizes) {
@@ -100,6 +108,47 @@ function bytesOf(kind, sizes) {
     if (typeof field === "string") return sum + bytesOf(field, sizes);
     const [dtype, shape] = field;
     if (shape === null) return sum;
-    return sum + 64 + shape.reduce((product, each) => product * lengthOf(each, sizes), ARRAYS[dtype].BYTES_PER_ELEMENT);
+    return sum + 64 + shape.reduce((product, each) => product * lengthOf(each, sizes), bytesOfOne(dtype));
   }, 0);
+}
+
+const bytesOfOne = (dtype) => layout.records[dtype]?.size ?? ARRAYS[dtype].BYTES_PER_ELEMENT;
+
+/** An array of numbers; of records, their bytes. */
+function view(buffer, dtype, at, shape) {
+  const count = shape.reduce((product, each) => product * each, 1);
+  return dtype in ARRAYS ? new ARRAYS[dtype](buffer, at, count) : new Uint8Array(buffer, at, count * bytesOfOne(dtype));
+}
+
+/** Records of a kind, from one row up to another, in an array of their bytes. */
+function rowsOf(bytes, kind, begin, end) {
+  return Array.from({ length: end - begin }, (_, row) =>
+    recordIn(bytes.buffer, kind, bytes.byteOffset + (begin + row) * layout.records[kind].size));
+}
+
+/** A record in memory: a number is a property, an array a view, and a table a list of the rows in use. */
+function recordIn(buffer, kind, at) {
+  const { fields } = layout.records[kind];
+  return Object.defineProperties({}, Object.fromEntries(fields.map(([name, dtype, offset, shape]) => {
+    const place = at + offset;
+    if (!(dtype in ARRAYS)) {
+      let within = null; // once it is asked for
+      const rows = (count) => Array.from({ length: count }, (_, row) =>
+        recordIn(buffer, dtype, place + row * bytesOfOne(dtype)));
+      return [name, { get() { return within ??= shape.length ? rows(this[`n_${name}`]) : rows(1)[0]; } }];
+    }
+    const array = view(buffer, dtype, place, shape);
+    if (shape.length) return [name, { value: array }];
+    return [name, { get: () => Number(array[0]), set: (value) => fill(array, [value]) }];
+  })));
+}
+
+/** Write values into the fields of a record that have their names. */
+function assign(record, values) {
+  for (const [name, value] of Object.entries(values)) {
+    if (ArrayBuffer.isView(record[name])) fill(record[name], value);
+    else if (Array.isArray(record[name])) value.forEach((row, index) => assign(record[name][index], row));
+    else if (typeof record[name] === "object") assign(record[name], value);
+    else if (name in record) record[name] = value;
+  }
 }

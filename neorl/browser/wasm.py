@@ -3,9 +3,10 @@
 There is one for each of `MODULES`, since the numbers of actions and axes are compile-time constants. Numba's LLVM code
 of a module's kernels is compiled for WebAssembly by llvmlite as a whole, so that shared functions occur once, and
 linked by LLD. No interface is written by hand: what an exported function takes follows from the annotations of its
-kernel. Its arguments are a pointer to the result, 0, and a pointer to a table of the kernel's arguments, as that of
-`neorl.core.calls.Table`: eight bytes for a number, and for an array its address and its lengths; named tuples, also
-nested ones, field by field. It returns 0. Memory is the only import; the caller's part of it begins at the exported
+kernel. Its arguments are a pointer to the result, 0, and a pointer to a table of the kernel's arguments, as in
+`neorl.core.tables`: eight bytes for a number, and for an array its address and its lengths; named tuples, also
+nested ones, field by field, and for an agent's record its address. It returns 0. Memory is the only import; the
+caller's part of it begins at the exported
 global __heap_base.
 
 A module ships with the wheel that `make wheel` builds, together with a digest of all its sources; elsewhere it is built
@@ -25,24 +26,26 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from importlib import resources
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from neorl import files
-from neorl.agents.compile import whole_constants
+from neorl.agents.compile import whole_life
 from neorl.agents.individual import OF_A_MAP
 from neorl.agents.papers import brownian
 from neorl.agents.spaces import pilot
 from neorl.browser.seeding import start_stream
 from neorl.browser.worlds import PLANE
 from neorl.container import cores, free_memory
-from neorl.core import contacts, displacement, life, parameters
+from neorl.beyond import contacts
+from neorl.core import derived, displacement, life
 from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
 from neorl.core.identity import can_cache, digest_of_source
-from neorl.core.kernel import OPTIONS, fields, is_tuple
-from neorl.core.parameters import Parameters, derive
-from neorl.core.state import State, begin_values
+from neorl.core.called import Calls, Life
+from neorl.core.derived import begin_values, derive
+from neorl.core.kernel import Record, fields, is_tuple
+from neorl.core.record import CUT, TRACK, Memory, agent_type
 from neorl.experiments.condition import PARTS, source_digest
 from neorl.extras import require
 from neorl.warn import warn
@@ -55,33 +58,36 @@ from neorl.worlds.world import Dynamics
 
 
 class Module(NamedTuple):
-    """The contents of a module: worlds, and the constants compiled into the kernels of their agents."""
+    """The contents of a module: worlds, the `Life` of their agents, and the dtype of their records."""
 
     dynamics: Dynamics
-    constants: Any  # `neorl.core.constants.Constants`
+    life: Life
+    record: np.dtype
     exports: tuple
     tuples: tuple
 
 
-def _module(dynamics, constants, with_second):
-    exports = (start_stream, derive, begin_values, dynamics.reset, life.begin,
-               rollout_in(dynamics), survey, cell_seen_at)
-    tuples = Parameters, State, fields(dynamics.reset)["state"], fields(dynamics.reset)["rules"]
+def _module(dynamics, agent, world, with_second):
+    exports = (start_stream, derive, begin_values, dynamics.reset, life.begin, rollout_in(dynamics), survey,
+               cell_seen_at)
+    tuples = Memory, fields(dynamics.reset)["state"], fields(dynamics.reset)["rules"]
     if with_second:
         exports, tuples = (*exports, step_second), (*tuples, WaterWorldState)
-    return Module(dynamics, constants, exports, tuples)
+    record = agent_type(len(world.actions.names), world.actions.axes, ROWS)
+    return Module(dynamics, whole_life(agent), record, exports, tuples)
 
 
+ROWS = 512  # in the tables of an agent in a page
 MODULES = {  # by the name under which a page requests it
     # agents without kernels of the user's own
-    "plane": _module(PLANE, whole_constants(brownian(), WaterWorld()), True),
-    "helm": _module(Vessel().dynamics, whole_constants(pilot(), Vessel()), False)}  # for the two actions of a rudder
+    "plane": _module(PLANE, brownian(), WaterWorld(), True),
+    "helm": _module(Vessel().dynamics, pilot(), Vessel(), False)}  # for the two actions of a rudder
 ENUMERATIONS = (Action, Cut, Feature, MapState, Source, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
 HOT = "rollout"  # the other exports are called at most once per picture
 RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, arm.reset, arm.draw_point, water_maze.reset,
-        vessel.reset, vessel.draw_thing, parameters.cut_axes, parameters.find_inputs, contacts.begin_contacts)
-EVERY_STEP = life.act, life.observe, life.observe_self
+        vessel.reset, vessel.draw_thing, derived.cut_axes, derived.list_desires, contacts.begin_contacts)
+EVERY_STEP = life.act, life.observe, displacement.observe_self
 # Optimised for speed, but not inlined.
 APART = (contacts.observe_contacts, contacts.evaluate_contacts, displacement.learn_displacement)
 SHIPPED = {name: resources.files(__package__) / f"{name}.wasm" for name in MODULES}  # in a wheel
@@ -157,18 +163,32 @@ def layout(name="plane"):
     """The interface of a module for its callers, ready for JSON, with lists where the order matters.
 
     "tuples": for each named tuple its fields, [name, kind]; a kind is [dtype, shape], with the shape None for a scalar,
-    or the name of a nested tuple. "exports": for each function its "arguments", [name, kind], and the dtype of its
-    "result". "state" and "rules": the names of the world's tuples. "enumerations": {name: {member: number}}.
-    "of_a_map": the arrays of an agent's state that have a part for each map, by the field of its parameters that holds
-    where each part begins.
+    or the name of a nested tuple. "records": for each kind of record, "Agent" among them, its "size" and its "fields",
+    [name, dtype, offset, shape]; instead of the dtype there may be the name of a kind. "exports": for each function its
+    "arguments", [name, kind], and the dtype of its "result". "state" and "rules": the names of the world's tuples.
+    "rows": of the tables of a record.
+    "enumerations": {name: {member: number}}. "of_a_map": the arrays of an agent's memory that have a part for each map,
+    by what the part begins and ends with.
     """
-    _, _, exports, tuples = MODULES[name]
-    return {"state": tuples[2].__name__, "rules": tuples[3].__name__,
+    _, _, record, exports, tuples = MODULES[name]
+    return {"state": tuples[1].__name__, "rules": tuples[2].__name__, "rows": ROWS,
             "tuples": {kind.__name__: _described_all(kind) for each in tuples for kind in _with_those_within(each)},
+            "records": _records("Agent", record) | _records("TRACK", TRACK) | _records("CUT", CUT),
             "exports": {each.__name__: {"arguments": _described_all(_passed(each)),
                                         "result": SCALARS.get(fields(each)["return"])} for each in exports},
             "enumerations": {kind.__name__: {each.name: int(each) for each in kind} for kind in ENUMERATIONS},
             "of_a_map": OF_A_MAP}
+
+
+def _records(name, dtype):
+    """A kind of record, and those within, each named after its field."""
+    found = {name: {"size": dtype.itemsize, "fields": [
+        [field, field if kind.base.names else str(kind.base), offset, list(kind.shape)]
+        for field, (kind, offset, *_) in dtype.fields.items()]}}
+    for field, (kind, *_) in dtype.fields.items():
+        if kind.base.names:
+            found |= _records(field, kind.base)
+    return found
 
 
 def _with_those_within(kind):
@@ -182,14 +202,18 @@ def _described_all(kind):
 def _described(field):
     if is_tuple(field):
         return field.__name__
-    return [field[0], list(field[1])] if isinstance(field, tuple) else [SCALARS[field], None]
+    if field is Record:
+        return ["Agent", []]
+    if isinstance(field, tuple):
+        return [{TRACK: "TRACK", CUT: "CUT"}.get(field[0], field[0]), list(field[1])]
+    return [SCALARS[field], None]
 
 
 @functools.cache
 def _passed(kernel):
     """The named tuple of a kernel's arguments, which the exported function takes as a table."""
     return NamedTuple(kernel.__name__, [(name, each) for name, each in kernel.__annotations__.items()
-                                      if name not in ("constants", "return")])
+                                      if each not in (Calls, Life) and name != "return"])
 
 
 def _digest(name):
@@ -224,7 +248,7 @@ def _build(name):
     """Compile and link a module from the code that numba generates in this process."""
     import llvmlite.binding as llvm
 
-    _, constants, exports, _ = MODULES[name]
+    _, life, record, exports, _ = MODULES[name]
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
     for kernel in RARE + APART:
@@ -232,7 +256,7 @@ def _build(name):
     for kernel in EVERY_STEP:
         kernel.dispatcher.targetoptions["forceinline"] = True
     target = llvm.Target.from_triple(TRIPLE).create_target_machine(features="+simd128,+bulk-memory", opt=3)
-    together = _together({kernel.__name__: _code(kernel, constants) for kernel in exports})
+    together = _together({kernel.__name__: _code(kernel, life, record) for kernel in exports})
     passes = llvm.create_pass_builder(target, llvm.create_pipeline_tuning_options(speed_level=3))
     passes.getModulePassManager().run(together, passes)
     with tempfile.TemporaryDirectory() as folder:
@@ -270,9 +294,9 @@ def _mangled(kernel):
     return "".join(f"{len(each)}{each}" for each in f"{kernel.__module__}.{kernel.__name__}".split("."))
 
 
-def _code(kernel, constants):
+def _code(kernel, life, record):
     """The LLVM code of a kernel under its own name, with everything it calls."""
-    dispatcher = _entry(kernel, constants)
+    dispatcher = _entry(kernel, life, record)
     (compiled,) = dispatcher.overloads.values()
     code = compiled.library.get_llvm_str()
     code = re.sub(r"target datalayout = .*", f'target datalayout = "{LAYOUT}"', code)
@@ -282,17 +306,19 @@ def _code(kernel, constants):
     return code.replace(f"@{compiled.fndesc.llvm_func_name}(", f"@{kernel.__name__}(")
 
 
-def _entry(kernel, constants):
-    """The entry point of a kernel: a function of a table of its arguments."""
+def _entry(kernel, life, record):
+    """The entry point of a kernel: a function of a table of its arguments. What it calls is compiled into it."""
     import numba
 
-    from neorl.core.views import SCALARS as TYPES
-    from neorl.core.views import View
+    from neorl.core.compiling import options
+    from neorl.core.tables import SCALARS as TYPES
+    from neorl.core.tables import View
 
-    taken = [name if name == "constants" else f"passed.{name}" for name in fields(kernel) if name != "return"]
-    entry = eval(f"lambda passed: kernel({', '.join(taken)})", {"kernel": kernel, "constants": constants})
-    result = TYPES[kernel.__annotations__["return"]]
-    return numba.njit(result(View(_passed(kernel))), **OPTIONS, no_cpython_wrapper=True, no_cfunc_wrapper=True)(entry)
+    taken = [name if each in (Calls, Life) else f"passed.{name}" for name, each in fields(kernel).items()
+             if name != "return"]
+    entry = eval(f"lambda passed: kernel({', '.join(taken)})", {"kernel": kernel, "life": life, "calls": life.calls})
+    result = TYPES[kernel.__annotations__["return"]](View(_passed(kernel), record))
+    return numba.njit(result, **options(no_cpython_wrapper=True, no_cfunc_wrapper=True))(entry)
 
 
 if __name__ == "__main__":

@@ -1,19 +1,15 @@
-"""How Python calls kernels, and passes them the named tuples of an agent: each as a `Table`, by its address.
+"""How Python calls kernels, and passes them the record and the named tuples of an agent: each by one pointer.
 
-An agent consists of some eighty arrays. Passing them one by one would make every call slow, and every kernel that
-takes them slow to compile. In a kernel a table looks like the named tuple that it is made of (`neorl.core.views`).
-
-A kernel among the fields, with the signature that `function` annotates, is passed by the address of its code. So it is
-compiled once and by itself, and replacing it compiles nothing else.
+In a kernel, a table looks like the named tuple that it is made of (`neorl.core.tables`). A kernel among the fields is
+passed by the address of its code. So it is compiled once and by itself, and replacing it compiles nothing else.
 """
 
-from collections.abc import Callable
-from typing import Annotated, NamedTuple, get_args
+import functools
 
 import numpy as np
 
-from neorl import checks
-from neorl.core.kernel import Kernel, fields, full_name, interpreting, is_tuple, jit_is_off
+from neorl.core.interpreted import interpreted
+from neorl.core.kernel import Kernel, full_name, interpreting, is_tuple, jit_is_off
 from neorl.core.kernel_errors import raise_named
 
 
@@ -25,13 +21,16 @@ def execute(kernel, *arguments):
     Raises TypeError for one that is only inlined into others, or that numba cannot compile, ValueError for one of the
     user's that raises. Both name the kernel that is to blame.
     """
-    if "no_cpython_wrapper" in getattr(kernel, "options", ()):
+    if getattr(kernel, "is_inlined", False):
         raise TypeError(f"{kernel.__module__}.{kernel.__name__} must be called by kernels, into which it is inlined, "
                         "not by execute")
     try:
-        if isinstance(kernel, Kernel):
-            return kernel.for_python(*_passed(kernel, arguments))
-        return interpret(kernel, *arguments)
+        if not isinstance(kernel, Kernel):
+            return interpret(kernel, *arguments)
+        passed = list(_passed(kernel, arguments))
+        if any(is_passed(each) for each in passed):  # numba would look up their types far more slowly
+            return kernel.compiled_for(tuple(map(type_of, passed))).entry(*map(content_of, passed))
+        return kernel.for_python(*passed)
     except Exception as error:
         raise_named((kernel, *_kernels_in(arguments)), error)
 
@@ -39,38 +38,55 @@ def execute(kernel, *arguments):
 def interpret(kernel, *arguments):
     """Call a kernel as a Python function, which gives the same bits; to compile what runs once would take longer."""
     with interpreting():
-        return kernel(*arguments)
+        return kernel(*map(interpreted, arguments))
 
 
 def bound(called, *arguments):
     """A function without arguments that executes a kernel of this package on these named tuples."""
     if jit_is_off():
         return lambda: execute(called, *arguments)
-    from numba import typeof
-
-    tables = [Table(each) for each in arguments]
-    entry = called.compiled_for(tuple(map(typeof, tables))).entry
+    arguments = [in_table(each, record_among(arguments)) for each in arguments]
+    entry = called.compiled_for(tuple(map(type_of, arguments))).entry
+    contents = [content_of(each) for each in arguments]
 
     def call():
-        for table in tables:
-            table.refresh()
+        for each in arguments:
+            each.refresh()
         try:
-            return entry(*tables)
+            return entry(*contents)
         except Exception as error:
             raise_named((called, *_kernels_in(arguments)), error)
 
     return call
 
 
-def tabled(kind):
-    """Declare that a kind of named tuple is passed to compiled code as a table."""
-    kind.is_tabled = True
-    return kind
+def in_table(values, record=None):
+    """A named tuple, or an agent's record, as `execute` passes it on, so that this need not be done at every call.
+
+    record: the dtype of the record of an agent whose kernels are among the fields.
+    """
+    if jit_is_off():
+        return interpreted(values)
+    from neorl.core.tables import Table
+
+    return PassedRecord(values) if is_record(values) else Table(values, record)
 
 
-def in_table(values):
-    """A named tuple as `execute` passes it on, so that this need not be done at every call."""
-    return values if jit_is_off() else Table(values)
+def record_among(arguments):
+    """The dtype of the record among the arguments of a kernel, or None."""
+    within = (record_among(each) for each in arguments if is_tuple(each))
+    return next((each.dtype for each in arguments if is_record(each) or isinstance(each, PassedRecord)),
+                next(filter(None, within), None))
+
+
+def is_record(value):
+    """Whether an argument is the record of an agent: an array without axes."""
+    return isinstance(value, np.ndarray) and value.ndim == 0 and value.dtype.names is not None
+
+
+def is_passed(value):
+    """Whether an argument is as `in_table` returns it."""
+    return hasattr(value, "refresh")
 
 
 def _passed(kernel, arguments):
@@ -79,77 +95,44 @@ def _passed(kernel, arguments):
         raise TypeError(f"{full_name(kernel)} must be called with {code.co_argcount} arguments, but is with "
                         f"{len(arguments)}")
     for name, each in zip(code.co_varnames, arguments):
-        if isinstance(each, Table):
+        if is_passed(each):
             each.refresh()
-        elif getattr(kernel.__annotations__.get(name), "is_tabled", False):
-            each = Table(each)
+        elif is_record(each) or getattr(kernel.__annotations__.get(name), "is_tabled", False):
+            each = in_table(each, record_among(arguments))
         yield each
 
 
 def _kernels_in(arguments):
-    values = [each.values if isinstance(each, Table) else each for each in arguments]
-    return [field for each in values if is_tuple(each) for field in each if callable(field)]
+    for each in arguments:
+        values = getattr(each, "values", each)
+        for field in values if is_tuple(values) else ():
+            yield from [field] if callable(field) else _kernels_in([field])
 
 
-class Signature(NamedTuple):
-    """The types of a kernel: each argument an annotation, or `typing.Self` for the tuple that holds the kernel."""
+def type_of(value):
+    """The numba type of an argument."""
+    from numba import typeof
 
-    arguments: tuple
-    returns: type | None
-
-
-def function(*arguments, returns):
-    """The annotation of a kernel with these arguments, which may be missing: None."""
-    return Annotated[Callable, Signature(tuple(get_args(each)[1:] or each for each in arguments), returns)]
+    return value.type if is_passed(value) else typeof(value)
 
 
-class Table:
-    """A named tuple for compiled code: words, of which each is an address or a length of an array, or a number.
+def content_of(value):
+    """What compiled code is called with for an argument."""
+    return value.content if is_passed(value) else value
 
-    The lengths of tuples among the fields are part of its type, so that they are known when kernels are compiled.
-    """
 
-    def __init__(self, values):
-        self.values, self.kind, self._users = values, type(values), []
-        self.lengths = tuple(len(each) for each in values if type(each) is tuple)
-        self.words = np.array(list(self._words(values)), np.int64)
-        self.address = self.words.ctypes.data
+class PassedRecord:
+    """An agent's record for compiled code, with its numba type."""
 
-    @property
-    def _numba_type_(self):
-        from neorl.core.views import View
-
-        return View(self.kind, self.lengths)
-
-    def _words(self, values):
-        for value, (name, field) in zip(values, fields(type(values)).items()):
-            if is_tuple(field):
-                yield from self._words(value)
-            elif isinstance(value, np.ndarray):
-                dtype, shape = field
-                if value.dtype != dtype or value.ndim != len(shape) or not value.flags.c_contiguous:
-                    raise ValueError(f"{name} must be a contiguous array of {np.dtype(dtype)} with {len(shape)} axes, "
-                                     f"but is {checks.shown(value)}")
-                yield from (value.ctypes.data, *value.shape)
-            elif field in (bool, int):
-                yield int(value)
-            elif field in (float, np.float32):
-                yield int(np.float64(value).view(np.int64))
-            elif field is not tuple:
-                yield self._address(name, value)
-
-    def _address(self, name, kernel):
-        if kernel is None:
-            return 0
-        called = self._numba_type_.member(name)[1]
-        compiled = kernel.compiled_for(called.arguments, called.returns)
-        if kernel.is_users:
-            self._users.append((kernel, compiled.dispatcher))
-        return compiled.address
+    def __init__(self, record):
+        self.content, self.dtype, self.type = record[()], record.dtype, _type_of_record(record.dtype)
 
     def refresh(self):
-        """Compile the user's kernels again if what they look up has changed."""
-        if any(kernel.for_python is not compiled for kernel, compiled in self._users):
-            self._users = []
-            self.words[:] = list(self._words(self.values))
+        """Do nothing: the user's kernels are elsewhere."""
 
+
+@functools.cache
+def _type_of_record(dtype):
+    from numba import from_dtype
+
+    return from_dtype(dtype)

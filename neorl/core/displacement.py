@@ -6,56 +6,104 @@
    that cell is the goal that is looked up, and all else is as in `neorl.core.learning`, except that a place is
    forgotten at a strength of 0.01.
 4. By eq. 4.8, a goal is worth γ max q of the same place as seen from the new centre.
+
+In `notebooks/companion/one_file.py`, this is `learn_motion` in section 5.
 """
 
 import numpy as np
 
-from neorl.core.geometry import LAST, SCALE, STRIDE, interval_at
+from neorl.core.choices import MapState
+from neorl.core.geometry import cell_within, component
 from neorl.core.kernel import inlined_kernel, kernel
 from neorl.core.learning import (SMALLEST, UNBOUNDED, UNIT, ZERO, enter, forget_all, higher, join, learn_remembered,
                                  order_of, rate_events, rule_of, stepped, sunk, trace_of, values_of, widen)
+from neorl.core.called import Own
+from neorl.core.record import Memory, Record
+from neorl.core.scene import ABSENT, Scene
+
+
+@kernel
+def observe_self(agent: Record, memory: Memory, scene: Scene, own: Own, n: int, point: int) -> None:
+    """Follow the agent, or the agent as seen from a thing, and learn in every map whose centre it has left."""
+    node = agent.nodes[n]
+    starts = node.state == MapState.per_object and (scene.met[point] != 0 or scene.kinds[point] < 0)
+    locate_self(agent, memory, scene, node, point)
+    for m in range(node.first_map, node.end_map):
+        nres = agent.maps[m]
+        t = nres.first_track + point
+        if starts or memory.tracks[t].cell < 0:
+            start_self(agent, memory, nres, point, centre_cell(scene, node, nres, point))
+        elif has_left_centre(agent, memory, nres, point):
+            cell = cell_within(agent, memory, node, nres, agent.offset)
+            learn_displacement(agent, memory, own, node, nres, point, cell)
+            enter(memory, t, nres.contact)
+
+
+@kernel
+def begin_self(agent: Record, memory: Memory, scene: Scene, own: Own, n: int, point: int) -> None:
+    """Start the tracks of the agent, or of the agent as seen from a thing, at its present place."""
+    node = agent.nodes[n]
+    locate_self(agent, memory, scene, node, point)
+    for m in range(node.first_map, node.end_map):
+        nres = agent.maps[m]
+        start_self(agent, memory, nres, point, centre_cell(scene, node, nres, point))
 
 
 @inlined_kernel
-def start_self(parameters, constants, state, m, point, cell):
-    """Start the track of the self, at state.coordinates, in a cell: the centre, or none."""
-    track = np.uint64(parameters.maps.first_track[m] + point)
-    enter(constants, state.tracks, track, cell)
-    state.tracks.passed_count[track] = 0
-    pass_by(parameters, state, m, point, track)
+def locate_self(agent, memory, scene, node, point):
+    """Write where the agent is, or where it is as seen from a thing, into agent.coordinates."""
+    for axis in range(agent.here.shape[0]):
+        if node.state == MapState.per_object:
+            agent.coordinates[axis] = -component(agent, memory, scene, node, node.follows, point, axis)
+        else:
+            agent.coordinates[axis] = scene.position[axis] / agent.size
 
 
 @inlined_kernel
-def learn_displacement(parameters, constants, state, n, m, point, reached):
+def centre_cell(scene, node, nres, point):
+    """The centre of a map, or no cell if it is of an absent thing."""
+    absent = node.state == MapState.per_object and scene.kinds[point] < 0
+    return ABSENT if absent else nres.contact
+
+
+@inlined_kernel
+def start_self(agent, memory, nres, point, cell):
+    """Start the track of the self, at agent.coordinates, in a cell: the centre, or none."""
+    t = nres.first_track + point
+    enter(memory, t, cell)
+    memory.tracks[t].passed = 0
+    pass_by(agent, memory, nres, point)
+
+
+@inlined_kernel
+def learn_displacement(agent, memory, own, node, nres, point, reached):
     """Learn that the self has reached a cell as seen from the last centre, and centre the map on it."""
-    track = np.uint64(parameters.maps.first_track[m] + point)
-    rule, values = rule_of(parameters.learning), values_of(parameters, state, m)
-    trace, rates = trace_of(parameters, constants, state.tracks, m, point), state.rates
-    rate_events(parameters.learning, constants, state, track, rates)
-    if parameters.learning.bootstrap and reached >= 0:
-        learn_all_displacements(parameters, values, rule, n, m, reached, rates)
-    count = join_passed(parameters, state, trace, rule, n, m, point, rates)
-    learn_remembered(values, order_of(parameters, m), rule, trace, count, 0)
+    rule, values, trace = rule_of(agent.learning), values_of(agent, memory, nres), trace_of(agent, memory, nres, point)
+    rate_events(agent, memory, own, nres.first_track + point)
+    if agent.learning.bootstrap and reached >= 0:
+        learn_all_displacements(memory, values, rule, node, nres, reached, agent.rates)
+    count = join_passed(agent, memory, trace, rule, node, nres, point)
+    learn_remembered(values, order_of(agent, nres), rule, trace, count, 0)
     forget_all(trace, count)
-    pass_by(parameters, state, m, point, track)
+    pass_by(agent, memory, nres, point)
 
 
 @inlined_kernel
-def join_passed(parameters, state, trace, rule, n, m, point, rates):
+def join_passed(agent, memory, trace, rule, node, nres, point):
     """List where the self now is as seen from each place that it has passed, and return the number of such cells."""
-    learning, maps, tracks = parameters.learning, parameters.maps, state.tracks
-    track, begin, size = np.uint64(maps.first_track[m] + point), passed_slots(parameters, m, point), maps.passed[m]
-    newest, count = (tracks.passed_count[track] - 1) % size, 0
+    learning, passed = agent.learning, memory.tracks[nres.first_track + point].passed
+    begin, size = passed_slots(nres, point), nres.passed
+    newest, count = (passed - 1) % size, 0
     strength, worth = UNIT, UNIT
-    for event in range(rates.shape[0]):
-        tracks.passed_rates[begin + newest, event] = rates[event]
-    filled = min(tracks.passed_count[track], size)
-    look_back(parameters, state, n, m, begin, filled)
+    for event in range(agent.rates.shape[0]):
+        memory.passed_rates[begin + newest, event] = agent.rates[event]
+    filled = min(passed, size)
+    look_back(agent, memory, node, nres, begin, filled)
     for back in range(filled):
         slot = np.uint64(begin + (newest - back if back <= newest else newest - back + size))
-        cell = state.seen_from[slot]
+        cell = memory.seen_from[slot]
         if cell >= 0.0 and (back > 0 or not learning.bootstrap):  # the last centre has learned by bootstrapping
-            count = join(trace, count, int(cell), tracks.passed_rates[slot], rule.absent_rate, strength, worth)
+            count = join(trace, count, int(cell), memory.passed_rates[slot], rule.absent_rate, strength, worth)
         strength *= learning.memory_retained
         worth *= learning.memory_retained * learning.discount
         worth = worth if worth > SMALLEST else ZERO
@@ -63,32 +111,35 @@ def join_passed(parameters, state, trace, rule, n, m, point, rates):
 
 
 @kernel
-def look_back(parameters, state, n, m, begin, filled):
-    """Write the cell of the self as seen from each place into state.seen_from, or −∞ beyond the range."""
-    seen_from, ends = state.seen_from[begin : begin + filled], parameters.nodes.ends[n]
-    for at in range(filled):
-        seen_from[at] = 0.0
-    for axis in range(np.uint64(state.tracks.passed_at.shape[1])):
-        row, a = parameters.grid[np.uint64(parameters.maps.first_grid[m]) + axis], parameters.nodes.first_axis[n] + axis
-        cut, here = (row[0], row[1], row[2], row[3], row[4]), state.coordinates[axis]  # in registers
-        least = parameters.axes.low[a] if ends else -np.inf
-        most = parameters.axes.high[a] if ends else np.inf
-        passed_at = state.tracks.passed_at[begin : begin + filled, axis]
-        for at in range(filled):  # compiles to vector instructions
-            offset = here - passed_at[at]
-            seen = seen_from[at] + cut[STRIDE] * interval_at(cut, offset)
+def look_back(agent, memory, node, nres, begin, filled):
+    """Write the cell of the self as seen from each place into memory.seen_from, or −∞ beyond the range."""
+    seen_from = memory.seen_from[begin : begin + filled]
+    for i in range(filled):
+        seen_from[i] = 0.0
+    for along in range(node.axes):
+        axis, cut = agent.axes[node.first_axis + along], memory.cuts[nres.first_cut + along]
+        here = agent.coordinates[along]
+        low, scale, last, beyond, stride = cut.low, cut.scale, cut.last, cut.beyond, cut.stride  # in registers
+        least = axis.low if node.ends else -np.inf
+        most = axis.high if node.ends else np.inf
+        passed_at = memory.passed_at[begin : begin + filled, along]
+        for i in range(filled):  # compiles to vector instructions
+            offset = here - passed_at[i]
+            interval = np.floor((offset - low) * scale)
+            interval = interval if interval > 0.0 else 0.0
+            seen = seen_from[i] + stride * (beyond if interval > last else interval)
             seen = seen if offset >= least else -np.inf
-            seen_from[at] = seen if offset <= most else -np.inf
+            seen_from[i] = seen if offset <= most else -np.inf
 
 
 @inlined_kernel
-def learn_all_displacements(parameters, values, rule, n, m, reached, rates):
+def learn_all_displacements(memory, values, rule, node, nres, reached, rates):
     """One update of every goal of the self, which has reached a cell as seen from the last centre (eq. 4.8)."""
-    q, actions, target, maps = values.q, values.actions, values.scratch, parameters.maps
-    cells, shift, width = maps.cells[m], reached - maps.contact[m], int(parameters.grid[maps.first_grid[m], LAST]) + 1
-    across = reached % width - maps.contact[m] % width  # along the first axis, whose cells follow each other
+    q, actions, target = values.q, values.actions, values.scratch
+    cells, shift, width = nres.cells, reached - nres.contact, int(memory.cuts[nres.first_cut].last) + 1
+    across = reached % width - nres.contact % width  # along the first axis, whose cells follow each other
     for row in range(0, cells, width):
-        inside = stays_inside(parameters, n, m, row, reached)
+        inside = stays_inside(memory, node, nres, row, reached)
         for goal in range(row, row + width):
             target[goal] = ZERO
             if inside and 0 <= goal - row - across < width:
@@ -108,41 +159,39 @@ def learn_all_displacements(parameters, values, rule, n, m, reached, rates):
 
 
 @inlined_kernel
-def stays_inside(parameters, n, m, goal, centre):
+def stays_inside(memory, node, nres, goal, centre):
     """Whether a goal is in the map, along all axes but the first, once the map is centred on another of its cells."""
-    first = parameters.maps.first_grid[m]
-    for axis in range(1, parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n]):
-        stride, intervals = int(parameters.grid[first + axis, STRIDE]), int(parameters.grid[first + axis, LAST]) + 1
-        interval = (goal // stride % intervals - centre // stride % intervals
-                    + parameters.maps.contact[m] // stride % intervals)
+    for axis in range(np.uint64(1), node.axes):
+        cut = memory.cuts[nres.first_cut + axis]
+        stride, intervals = int(cut.stride), int(cut.last) + 1
+        interval = goal // stride % intervals - centre // stride % intervals + nres.contact // stride % intervals
         if interval < 0 or interval >= intervals:
             return False
     return True
 
 
 @inlined_kernel
-def has_left_centre(parameters, state, m, point, track):
-    """Whether the self is half a cell or more from the centre, along an axis; its offset is then in state.offset."""
-    tracks, far = state.tracks, False
-    slot = passed_slots(parameters, m, point) + (tracks.passed_count[track] - 1) % parameters.maps.passed[m]
-    for axis in range(tracks.passed_at.shape[1]):
-        state.offset[axis] = state.coordinates[axis] - tracks.passed_at[slot, axis]
-        cells = state.offset[axis] * parameters.grid[np.uint64(parameters.maps.first_grid[m] + axis), SCALE]
+def has_left_centre(agent, memory, nres, point):
+    """Whether the self is half a cell or more from the centre, along an axis; its offset is then in agent.offset."""
+    slot, far = passed_slots(nres, point) + (memory.tracks[nres.first_track + point].passed - 1) % nres.passed, False
+    for axis in range(np.uint64(agent.here.shape[0])):
+        agent.offset[axis] = agent.coordinates[axis] - memory.passed_at[slot, axis]
+        cells = agent.offset[axis] * memory.cuts[nres.first_cut + axis].scale
         far = far or cells >= 0.5 or cells <= -0.5
     return far
 
 
 @inlined_kernel
-def pass_by(parameters, state, m, point, track):
-    """Centre a map on the self at state.coordinates: the newest of the places that its track has passed."""
-    tracks, count = state.tracks, state.tracks.passed_count[track]
-    slot = passed_slots(parameters, m, point) + count % parameters.maps.passed[m]
-    for axis in range(tracks.passed_at.shape[1]):
-        tracks.passed_at[slot, axis] = state.coordinates[axis]
-    tracks.passed_count[track] = count + 1
+def pass_by(agent, memory, nres, point):
+    """Centre a map on the self at agent.coordinates: the newest of the places that its track has passed."""
+    track = memory.tracks[nres.first_track + point]
+    slot = passed_slots(nres, point) + track.passed % nres.passed
+    for axis in range(agent.here.shape[0]):
+        memory.passed_at[slot, axis] = agent.coordinates[axis]
+    track.passed += 1
 
 
 @inlined_kernel
-def passed_slots(parameters, m, point):
+def passed_slots(nres, point):
     """Where the ring buffer of the places that a track has passed begins."""
-    return parameters.maps.first_passed[m] + point * parameters.maps.passed[m]
+    return nres.first_passed + point * nres.passed

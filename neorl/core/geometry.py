@@ -5,18 +5,19 @@ in units of the world's size (per second, for velocity); a direction is in turns
 towards the second. A map cuts each axis into intervals; those that contain the coordinates determine the one active
 cell (`cell_of`). Without a direction, as at rest, the coordinate is NaN and the interval does not change.
 
-A node *follows* one vector (`parameters.NodeParameters`): the agent's own, or that of each of several points. An
+A node *follows* one vector (`neorl.core.record.NODE`): the agent's own, or that of each of several points. An
 element of interest is *placed* along the axes of that vector, except that a contact leaves its direction unchanged;
 along the axes of other vectors it is everywhere. Cells are numbered along the axes in this order.
+
+In `notebooks/companion/one_file.py`, this is section 1: `followed`, `coordinate`, and the methods of `Map`.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
 from neorl.core.choices import Cut, Feature, Vector
-from neorl.core.kernel import array, inlined_kernel, kernel
+from neorl.core.kernel import inlined_kernel, kernel
 from neorl.core.scene import ABSENT
 
 OF_AXIS, OF_CREDIT = range(2)  # faults
@@ -25,26 +26,6 @@ SQRT_3 = math.sqrt(3.0)
 TAN_15_DEGREES = 2.0 - SQRT_3
 TERMS = 14  # of the series of the arctangent, exact to the last few bits
 CIRCLE_TERMS = 9  # of the series of sine and cosine up to an eighth of a turn, likewise
-
-
-# What defines an axis: `choices.Vector`; `choices.Feature`; the axis of the world that it runs along, or the number of
-# a user-defined feature; `choices.Cut`; its own number of intervals, or 0 for the resolution of the map.
-VECTOR, FEATURE, ALONG, CUT, INTERVALS = range(5)
-
-
-class AxisParameters(NamedTuple):
-    """The axes of the spaces of all nodes, one node after the other."""
-
-    what: array("int64", "node_axes", 5)
-    low: array("float64", "node_axes")
-    high: array("float64", "node_axes")
-    first_boundary: array("int64", "node_axes + 1")
-    boundary: array("float64", "boundaries")  # between unequal intervals
-
-
-# How a map cuts an axis: where the first interval begins; intervals per unit; the number of the last interval; that of
-# the interval beyond the range (the last, or the first if the axis closes); and the step in cell number per interval.
-LOW, SCALE, LAST, BEYOND, STRIDE = range(5)
 
 
 @kernel
@@ -100,133 +81,129 @@ def circle(turns, terms):
 
 
 @inlined_kernel
-def component(parameters, constants, scene, n, vector, point, axis):
+def component(agent, memory, scene, node, vector, point, axis):
     """One component of the vector of a point, along an axis of the world."""
-    own = scene.position[axis] / parameters.size
+    own = scene.position[axis] / agent.size
     if vector == Vector.position:
         return own
     if vector == Vector.velocity:
-        return scene.velocity[axis] / parameters.size
+        return scene.velocity[axis] / agent.size
     if vector == Vector.objects:
-        return scene.things[point, axis] / parameters.size - own
+        return scene.things[point, axis] / agent.size - own
     if vector == Vector.landmarks:
-        return parameters.nodes.landmark[parameters.nodes.first_landmark[n] + point, axis] - own
-    if point % len(constants.axes) != axis:  # walls: first those where each axis begins, then where it ends
+        return memory.landmark[node.first_landmark + point, axis] - own
+    if point % agent.here.shape[0] != axis:  # walls: first those where each axis begins, then where it ends
         return 0.0
-    return -own if point < len(constants.axes) else 1.0 - own
+    return -own if point < agent.here.shape[0] else 1.0 - own
 
 
 @inlined_kernel
-def locate(parameters, constants, scene, n, point, given, offset, coordinates, faults):
-    """Write the coordinates of a point of a node into `coordinates`, NaN where there is no direction.
+def locate(agent, memory, scene, own, node, point, given):
+    """Write the coordinates of a point of a node into agent.coordinates, NaN where there is no direction.
 
-    given: whether `offset` takes the place of the perceived vector that the node follows. faults: see `state.State`.
+    given: whether agent.offset takes the place of the perceived vector that the node follows.
     Returns whether that vector, and whether every vector, has a direction where one is needed.
     """
-    axes, nodes = parameters.axes, parameters.nodes
-    followed_has, all_have, follows, first = True, True, nodes.follows[n], nodes.first_axis[n]
-    if nodes.is_cartesian[n]:
-        for axis in range(np.uint64(nodes.first_axis[n + 1] - first)):
+    coordinates, offset = agent.coordinates, agent.offset
+    followed_has, all_have = True, True
+    if node.is_cartesian:
+        for axis in range(node.axes):
             coordinates[axis] = (offset[axis] if given else
-                                 component(parameters, constants, scene, n, follows, point, axis))
+                                 component(agent, memory, scene, node, node.follows, point, axis))
         return True, True
-    for axis in range(first, nodes.first_axis[n + 1]):
-        vector, feature, along = axes.what[axis, VECTOR], axes.what[axis, FEATURE], axes.what[axis, ALONG]
-        replaced = given and vector == follows
-        if vector == Vector.own:
-            coordinate = constants.feature(along, scene, point)
+    for i in range(node.axes):
+        axis = agent.axes[node.first_axis + i]
+        replaced = given and axis.vector == node.follows
+        if axis.vector == Vector.own:
+            coordinate = own.feature(axis.along, scene, point)
             if coordinate != coordinate:
-                faults[OF_AXIS] = along + 1
-        elif feature <= Feature.margin:
-            coordinate = offset[along] if replaced else component(parameters, constants, scene, n, vector, point, along)
-            if feature == Feature.foveated:
+                agent.faults[OF_AXIS] = axis.along + 1
+        elif axis.feature <= Feature.margin:
+            coordinate = (offset[axis.along] if replaced else
+                          component(agent, memory, scene, node, axis.vector, point, axis.along))
+            if axis.feature == Feature.foveated:
                 root = math.sqrt(abs(coordinate))  # abs() avoids a library call for negative arguments
                 coordinate = root if coordinate > 0.0 else -root
-            elif feature == Feature.margin:
-                reach = axes.high[axis]  # into the margin along either wall, negative along the first
+            elif axis.feature == Feature.margin:
+                reach = axis.high  # into the margin along either wall, negative along the first
                 coordinate = min(coordinate - reach, 0.0) if coordinate < 0.5 else max(coordinate - (1.0 - reach), 0.0)
         else:
             coordinate, x, y = 0.0, 0.0, 0.0
-            for each in range(len(constants.axes)):
-                value = offset[each] if replaced else component(parameters, constants, scene, n, vector, point, each)
+            for along in range(agent.here.shape[0]):
+                value = (offset[along] if replaced else
+                         component(agent, memory, scene, node, axis.vector, point, along))
                 coordinate += value * value
-                x, y = value if each == 0 else x, value if each == 1 else y
+                x, y = value if along == 0 else x, value if along == 1 else y
             coordinate = math.sqrt(abs(coordinate))
-            if feature == Feature.direction:
+            if axis.feature == Feature.direction:
                 has_direction = x != 0.0 or y != 0.0
                 all_have = all_have and has_direction
-                followed_has = followed_has and (has_direction or vector != follows)
+                followed_has = followed_has and (has_direction or axis.vector != node.follows)
                 coordinate = turn(x, y) if has_direction else np.nan
-        if axes.what[axis, CUT] > Cut.centred:
-            coordinate = in_range(axes, axis, coordinate)
-        coordinates[axis - first] = coordinate
+        if axis.cut > Cut.centred:
+            coordinate = in_range(memory, axis, coordinate)
+        coordinates[i] = coordinate
     return followed_has, all_have
 
 
 @inlined_kernel
-def maps_of(nodes, n):
-    """The numbers of the maps of a node; unsigned, since an index that may be negative costs more."""
-    return range(np.uint64(nodes.first_map[n]), np.uint64(nodes.first_map[n + 1]))
-
-
-@inlined_kernel
-def cell_of(parameters, coordinates, n, m):
-    """The cell of a point in a map of a node; a missing direction counts as 0."""
-    cell, first = 0.0, np.uint64(parameters.maps.first_grid[m])  # an unsigned index cannot count from the end
-    for axis in range(np.uint64(parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n])):
-        cut = parameters.grid[first + axis]
-        cell += cut[STRIDE] * interval_at(cut, coordinates[axis])
+def cell_of(memory, node, nres, coordinates):
+    """Σ stride · interval over the axes: the cell of a point in a map; a missing direction counts as 0."""
+    cell = 0.0
+    for axis in range(node.axes):
+        cut = memory.cuts[nres.first_cut + axis]
+        cell += cut.stride * interval_at(cut, coordinates[axis])
     return int(cell)
 
 
 @inlined_kernel
-def cell_within(parameters, coordinates, n, m):
+def cell_within(agent, memory, node, nres, coordinates):
     """The cell of a point in a map of a node, or ABSENT beyond the range of a node whose maps end there."""
-    if parameters.nodes.ends[n]:
-        for axis in range(np.uint64(parameters.nodes.first_axis[n]), np.uint64(parameters.nodes.first_axis[n + 1])):
-            coordinate = coordinates[axis - np.uint64(parameters.nodes.first_axis[n])]
-            is_open = parameters.axes.what[axis, CUT] <= Cut.centred and parameters.axes.what[
-                axis, FEATURE] != Feature.direction
-            if is_open and (coordinate < parameters.axes.low[axis] or coordinate > parameters.axes.high[axis]):
+    if node.ends:
+        for i in range(node.axes):
+            axis = agent.axes[node.first_axis + i]
+            is_open = axis.cut <= Cut.centred and axis.feature != Feature.direction
+            if is_open and (coordinates[i] < axis.low or coordinates[i] > axis.high):
                 return ABSENT
-    return cell_of(parameters, coordinates, n, m)
+    return cell_of(memory, node, nres, coordinates)
 
 
 @inlined_kernel
 def interval_at(cut, coordinate):
-    """The number of the interval that contains a coordinate, or of the one at the end of the range."""
-    interval = np.floor((coordinate - cut[LOW]) * cut[SCALE])
+    """⌊(x − low) · scale⌋, the interval that contains a coordinate, or the one at the end of the range."""
+    interval = np.floor((coordinate - cut.low) * cut.scale)
     interval = interval if interval > 0.0 else 0.0
-    return cut[BEYOND] if interval > cut[LAST] else interval
+    return cut.beyond if interval > cut.last else interval
 
 
 @kernel
-def in_range(axes, axis, coordinate):
+def in_range(memory, axis, coordinate):
     """A coordinate wrapped into the range of an axis that closes; among boundaries, the number of its interval."""
-    if coordinate != coordinate or axes.what[axis, CUT] <= Cut.centred:
+    if coordinate != coordinate or axis.cut <= Cut.centred:
         return coordinate
-    if axes.what[axis, CUT] == Cut.closed:
-        low, length = axes.low[axis], axes.high[axis] - axes.low[axis]
-        return coordinate - length * np.floor((coordinate - low) / length)
+    if axis.cut == Cut.closed:
+        length = axis.high - axis.low
+        return coordinate - length * np.floor((coordinate - axis.low) / length)
     interval = 0.0
-    for at in range(axes.first_boundary[axis], axes.first_boundary[axis + 1]):
-        interval += coordinate >= axes.boundary[at]
+    for i in range(axis.first_boundary, axis.end_boundary):
+        interval += coordinate >= memory.boundary[i]
     return interval
 
 
 @kernel
-def with_kept_directions(grid, g, coordinates, n_axes, cell, before):
-    """A cell with the intervals of `before` along the axes without a direction. g: the row of the map's first axis."""
+def with_kept_directions(memory, node, nres, coordinates, cell, before):
+    """A cell with the intervals of the cell `before` along the axes without a direction."""
     kept = 0
-    for axis in range(n_axes):
-        stride, intervals = int(grid[g + axis, STRIDE]), int(grid[g + axis, LAST]) + 1
+    for axis in range(node.axes):
+        cut = memory.cuts[nres.first_cut + axis]
+        stride, intervals = int(cut.stride), int(cut.last) + 1
         kept += stride * ((cell if coordinates[axis] == coordinates[axis] else before) // stride % intervals)
     return kept
 
 
 @inlined_kernel
-def contact_cell(maps, m, cell):
+def contact_cell(nres, cell):
     """The cell that a thing enters when it meets the agent: distance 0, in the same direction."""
-    if maps.placed[m] == maps.cells[m]:
-        return maps.contact[m]
-    return cell - cell % maps.placed[m] + maps.contact[m]
+    if nres.placed == nres.cells:
+        return nres.contact
+    return cell - cell % nres.placed + nres.contact

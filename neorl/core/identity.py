@@ -1,7 +1,7 @@
 """The identity of values that a result depends on: their content, and everything that their code looks up.
 
 A cached file is found by a text of everything that determined it (`neorl.experiments.condition`,
-`neorl.core.compile_cache`). A function counts by its bytecode, since its file may have changed after it was read, and
+`neorl.core.compiling`). A function counts by its bytecode, since its file may have changed after it was read, and
 by the present values of its globals, closures, defaults and attributes of modules, down to the functions among them.
 The code of the rooms `core` and `worlds` counts by name, since the key of such a file also contains the digest of
 their source (`digest_of_source`); so does that of Python, numba and NumPy. A program must not assign to names in them.
@@ -29,7 +29,8 @@ import numpy as np
 from neorl import files
 from neorl.warn import warn_once
 
-OURS = ("neorl.core.", "neorl.worlds.")
+OURS = ("neorl.core.", "neorl.worlds.", "neorl.beyond.")
+ROOMS = ("core", "worlds", "beyond", "agents", "gym", "browser")  # of this package that have kernels
 WITHOUT_SOURCE = ("numba", "numpy")
 PLAIN = (NoneType, bool, int, float, complex, str, bytes)
 CONSTANTS = (*PLAIN, tuple, np.ndarray, np.generic, Enum)  # among the attributes of a class
@@ -280,4 +281,4 @@ def _read(code):
     return repr(text), tuple(of_globals), tuple(attributes)
 
 
-digest_of_source("core", "worlds")  # on import, since the files may change while this process goes on with their code
+digest_of_source(*ROOMS)  # on import, since the files may change while this process goes on with their code

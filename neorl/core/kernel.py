@@ -17,8 +17,8 @@ cannot be called from Python directly; public functions check every argument and
 Annotations give the types of the arrays in a named tuple, and of the arguments that are passed as tables
 (`neorl.core.calls`) or from outside Python (`neorl.browser.wasm`); numba does not read them.
 
-Code compiled for calls from Python is cached on disk (`neorl.core.compile_cache`). numba takes globals and closures for
-constants, so a kernel is compiled again once any that it reads, or that a kernel it calls reads, has another value.
+numba takes globals and closures for constants, so a kernel is compiled again once any that it reads, or that a kernel
+it calls reads, has another value (`neorl.core.compiling` has how).
 """
 
 import contextlib
@@ -29,7 +29,7 @@ import os
 import sys
 import threading
 from collections.abc import Callable
-from typing import Annotated, Any, NamedTuple, get_args, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, get_args, get_type_hints
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -39,9 +39,6 @@ from neorl.core.global_random import global_random_in
 from neorl.core.identity import Reading
 from neorl.core.kernel_errors import not_compiled
 
-# Without numba's memory runtime (_nrt) a kernel cannot allocate, and does not count references to its arrays.
-OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
-INLINED = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 _making, _interpreting = threading.RLock(), threading.local()
 _kernels = WeakKeyDictionary[type, Any]()  # by the class that stands for them
 
@@ -52,9 +49,9 @@ class Kernel:
     numba is the slowest package to import, so it is imported when a kernel is first compiled.
     """
 
-    def __init__(self, function, options):
+    def __init__(self, function, is_inlined):
         functools.update_wrapper(self, function)
-        self.py_func, self.options = function, options
+        self.py_func, self.is_inlined = function, is_inlined
 
     def __reduce_ex__(self, protocol):
         if protocol < 4 and not hasattr(self, "origin"):
@@ -68,7 +65,7 @@ class Kernel:
         cloudpickle saves it by its content where it so saves other classes of the same module, such as those that the
         kernel's arguments are instances of: both must come to be the same in the other process.
         """
-        definition = type("definition", (), {"made_of": (self.py_func, self.options), "__module__": self.__module__,
+        definition = type("definition", (), {"made_of": (self.py_func, self.is_inlined), "__module__": self.__module__,
                                              "__qualname__": f"{self.__qualname__}.definition"})
         _kernels[definition] = self
         return definition
@@ -83,65 +80,56 @@ class Kernel:
                         "neorl.core.calls.execute, with arrays that fit")
 
     @property
-    def dispatcher(self):
-        """The numba dispatcher that compiles the kernel for other kernels, the same for all threads."""
-        return self._made("_dispatcher", self._new_dispatcher)
-
-    def _new_dispatcher(self, reading):
-        from neorl.core.linking import linked
-
-        return linked(self)
-
-    @property
     def _numba_type_(self):
         """The numba type of the kernel, for kernels that call it."""
         return self.dispatcher._numba_type_
 
     @property
+    def dispatcher(self):
+        """The numba dispatcher that compiles the kernel for other kernels, the same for all threads."""
+        return self._made("inner", lambda compiling, reading: compiling.inner(self, reading))
+
+    @property
     def for_python(self):
-        """The dispatcher for calls from Python: only its code is cached, with everything that is linked into it."""
-        return self._made("_for_python", self._new_for_python)
-
-    def _new_for_python(self, reading):
-        import numba
-
-        from neorl.core.compile_cache import CompileCache
-
-        dispatcher = numba.njit(**self.options | {"no_cfunc_wrapper": True})(self.py_func)
-        dispatcher._cache = CompileCache(self, reading)
-        dispatcher._compile_for_args = self._compile
-        return dispatcher
+        """The dispatcher for calls from Python, and by the kernel's address."""
+        return self._made("outer", lambda compiling, reading: self._compiles(compiling.outer(self, reading)))
 
     @property
     def is_users(self):
         """Whether the kernel depends on code of the user's."""
-        self._made("_for_python", self._new_for_python)
-        return bool(vars(self)["_for_python"][0].functions)
+        return not self._made("is_ours", lambda compiling, reading: not reading.functions)
 
     def compiled_for(self, arguments, returns=None):
-        """The code for arguments of these numba types, as `Compiled`. returns: the type of its result, if given."""
-        dispatcher = self.for_python
-        if arguments not in dispatcher.overloads:
-            with self._compiling():
-                dispatcher.compile(returns(*arguments) if returns else arguments)
-        made = dispatcher.overloads[arguments]
-        address = made.library.get_pointer_to_function(made.fndesc.llvm_func_name)
-        return Compiled(dispatcher, address, made.entry_point)
+        """The `neorl.core.compiling.Compiled` for arguments of these numba types. returns: of its result, if given."""
+        from neorl.core.compiling import compiled
+
+        with self._compiling():
+            return compiled(self.for_python, arguments, returns)
+
+    def _compiles(self, dispatcher):
+        dispatcher._compile_for_args = functools.partial(self._compile, dispatcher)
+        return dispatcher
 
     def _made(self, name, make):
         """What `make` returns, made again when anything that the kernel depends on has changed: numba freezes it."""
+        from neorl.core import compiling
+
         with _making:
-            reading, made = vars(self).get(name, (None, None))
+            reading, made = self._parts.get(name, (None, None))
             if reading is None or not reading.stands():
                 _refuse_global_random(self.py_func)  # again, since it may have come with a global
                 reading = Reading(self)
-                made = make(reading)
-                vars(self)[name] = reading, made
+                made = make(compiling, reading)
+                self._parts[name] = reading, made
             return made
 
-    def _compile(self, *arguments, **by_name):
+    @functools.cached_property
+    def _parts(self):
+        return {}
+
+    def _compile(self, dispatcher, *arguments, **by_name):
         with self._compiling():
-            return type(self.for_python)._compile_for_args(self.for_python, *arguments, **by_name)
+            return type(dispatcher)._compile_for_args(dispatcher, *arguments, **by_name)
 
     @contextlib.contextmanager
     def _compiling(self):
@@ -178,21 +166,13 @@ def interpreting():
         _interpreting.is_on = before
 
 
-class Compiled(NamedTuple):
-    """A kernel's code for certain types of its arguments."""
-
-    dispatcher: Any  # numba's, which keeps the code
-    address: int
-    entry: Callable  # for calls from Python with arguments of just these types
-
-
 def kernel(function: Callable) -> Any:
     """Compile a kernel.
 
     Raises ValueError for anything but a Python function, and for one that draws from a global random stream, itself or
     by a helper.
     """
-    return _compiled(function, OPTIONS)
+    return _compiled(function, is_inlined=False)
 
 
 def inlined_kernel(function):
@@ -201,12 +181,15 @@ def inlined_kernel(function):
     An agent's parameters are so many arrays that passing them costs more than running most kernels that take them;
     inlining makes passing them free.
     """
-    return _compiled(function, OPTIONS | INLINED)
+    return _compiled(function, is_inlined=True)
 
 
 def inlined(kernel):
     """The same kernel, only to be inlined into other kernels."""
-    return inlined_kernel(function_of(kernel))
+    copy = inlined_kernel(function_of(kernel))
+    if isinstance(kernel, Kernel):
+        copy.origin = inlined, (kernel,)
+    return copy
 
 
 def full_name(kernel):
@@ -220,11 +203,11 @@ def function_of(kernel):
     return getattr(kernel, "py_func", kernel)
 
 
-def _compiled(function, options):
+def _compiled(function, is_inlined):
     if not inspect.isfunction(function):
         raise checks.error("function", "a Python function to make a kernel of", function)
     _refuse_global_random(function)
-    return function if jit_is_off() else Kernel(function, options)
+    return function if jit_is_off() else Kernel(function, is_inlined)
 
 
 def _refuse_global_random(function):
@@ -323,6 +306,31 @@ def array(dtype, *shape):
     return Annotated[np.ndarray, dtype, shape]
 
 
+class Signature(NamedTuple):
+    """The types of a kernel: each argument an annotation."""
+
+    arguments: tuple
+    returns: type | None
+
+
+def function(*arguments, returns):
+    """The annotation of a kernel with these arguments that is called by its address, and may be missing: None."""
+    return Annotated[Callable, Signature(tuple(get_args(each)[1:] or each for each in arguments), returns)]
+
+
+def tabled(kind):
+    """Declare that a kind of named tuple is passed to compiled code as a table (`neorl.core.calls`)."""
+    kind.is_tabled = True
+    return kind
+
+
+if TYPE_CHECKING:
+    Record = Any
+else:
+    class Record:
+        """The annotation of an agent's record, of the dtype `neorl.core.record.agent_type`."""
+
+
 @functools.cache
 def fields(kind):
     """The fields of a named tuple or arguments of a kernel: {name: (dtype, shape)} for arrays, else {name: type}."""
@@ -349,16 +357,18 @@ def is_tuple(value):
 
 
 def mapped(function, values):
-    """A named tuple with a function applied to each of its arrays, and to those of nested tuples."""
-    return type(values)(*(mapped(function, value) if is_tuple(value) else
-                          function(value) if isinstance(value, np.ndarray) else value for value in values))
+    """A named tuple with a function applied to each of its arrays, and to those of nested tuples; or of an array."""
+    if is_tuple(values):
+        return type(values)(*(mapped(function, value) for value in values))
+    return function(values) if isinstance(values, np.ndarray) else values
 
 
 def arrays(values):
-    """The arrays of a named tuple and of nested ones, by name, {"maps.cells": array, …}."""
+    """The arrays of numbers in a named tuple or an array of records, by name, {"scene.position": array, …}."""
     found = {}
-    for name, value in values._asdict().items():
-        if is_tuple(value):
+    for name in values._fields if is_tuple(values) else values.dtype.names:
+        value = getattr(values, name) if is_tuple(values) else values[name]
+        if is_tuple(value) or isinstance(value, np.ndarray) and value.dtype.names:
             found |= {f"{name}.{inner}": array for inner, array in arrays(value).items()}
         elif isinstance(value, np.ndarray):
             found[name] = value

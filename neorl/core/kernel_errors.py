@@ -21,7 +21,7 @@ def not_compiled(kernel, error):
     to_blame = _named_in(text, to_blame) or _called_in(text, kernel) or [
         each for each in to_blame if _fails_alone(each)] or to_blame
     names = " or ".join(map(_where, to_blame)) or repr(kernel)
-    returned = re.search(r"or_\(Literal\[int\]\(0\), (.+?)\)$", what)  # by a policy, see `neorl.core.constants.choice`
+    returned = re.search(r"or_\(Literal\[int\]\(0\), (.+?)\)$", what)  # by a policy, see `neorl.core.called.choice`
     must = (f"return the number of an action, an integer, but returns {returned[1]}" if returned else
             f"be one that numba can compile, but {what}")
     return TypeError(f"the kernel {names} must {must}\n\nnumba's message: {text[:MOST_CHARACTERS]}")

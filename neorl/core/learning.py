@@ -13,8 +13,9 @@ there is no other reward.
    less. A cell is forgotten when its strength, which grows by 1 each time it is left, has faded below 1e-4.
 3. The value of an event that did not occur sinks, towards zero or away from the target.
 
-`neorl.core.displacement` does the same for maps whose state is the self. A value below 1e-30 counts as zero, because
-arithmetic on subnormal numbers is slow.
+Section 5 of `notebooks/companion/one_file.py` says the same in plain Python; docstrings name its functions, as in “one
+file: `updated`”. `neorl.core.displacement` is for maps whose state is the self. A value below 1e-30 counts as zero,
+because arithmetic on subnormal numbers is slow.
 """
 
 from typing import NamedTuple
@@ -24,11 +25,11 @@ import numpy as np
 from neorl.core.choices import Credit
 from neorl.core.geometry import OF_CREDIT
 from neorl.core.kernel import array, inlined_kernel, kernel
-from neorl.core.parameters import FORGOTTEN
 
 ZERO, UNIT, SMALLEST = np.float32(0.0), np.float32(1.0), np.float32(1e-30)
 UNBOUNDED = np.float32(np.inf)
 INACTIVE = np.float32(0.01)
+FORGOTTEN = np.float32(1e-4)  # the strength below which a cell is no longer remembered
 
 
 class MapValues(NamedTuple):
@@ -75,29 +76,27 @@ class Trace(NamedTuple):
     strength: array("float32", "cells")  # by place in the list
     weight: array("float32", "trace_weights")
     goal_worth: array("float32", "trace_weights")  # weight times the worth of a goal
-    actions: tuple  # their numbers, see `neorl.core.constants.Constants`
+    rates: array("float32", "actions")  # of the events in the cell that the track leaves
 
 
 @inlined_kernel
-def learn_transition(parameters, constants, state, m, point, cell_t):
-    """Learn from a track's change of cell."""
-    learning, tracks = parameters.learning, state.tracks
-    track = np.uint64(parameters.maps.first_track[m] + point)
-    cell_tm1 = tracks.cell[track]
-    rule, values, order = rule_of(learning), values_of(parameters, state, m), order_of(parameters, m)
-    trace, rates = trace_of(parameters, constants, tracks, m, point), state.rates
-    rate_events(learning, constants, state, track, rates)
+def learn_transition(agent, memory, own, nres, point, cell_t):
+    """Learn from a track's change of cell s⁻ → s⁺ (one file: `learn_transition`)."""
+    learning, rates, t = agent.learning, agent.rates, nres.first_track + point
+    track = memory.tracks[t]
+    cell_tm1 = track.cell
+    rule, values, order = rule_of(learning), values_of(agent, memory, nres), order_of(agent, nres)
+    trace = trace_of(agent, memory, nres, point)
+    rate_events(agent, memory, own, t)
     if learning.bootstrap:
         learn_all_goals(values, rule, cell_tm1, cell_t, rates)
     if learning.memory_retained > ZERO:
-        tracks.remembered_count[track] = fade(trace, tracks.remembered_count[track], learning.memory_retained,
-                                              learning.discount)
-        for turn in range(2):
-            if turn == learning.bootstrap:  # a cell that has already learned by bootstrapping joins afterwards
-                tracks.remembered_count[track] = join(trace, tracks.remembered_count[track], cell_tm1, rates,
-                                                      rule.absent_rate, UNIT, UNIT)
-            else:
-                learn_remembered(values, order, rule, trace, tracks.remembered_count[track], cell_t)
+        track.remembered = fade(trace, track.remembered, learning.memory_retained, learning.discount)
+        if learning.bootstrap:  # the cell has already learned by bootstrapping, so it joins afterwards
+            learn_remembered(values, order, rule, trace, track.remembered, cell_t)
+        track.remembered = join(trace, track.remembered, cell_tm1, rates, rule.absent_rate, UNIT, UNIT)
+        if not learning.bootstrap:
+            learn_remembered(values, order, rule, trace, track.remembered, cell_t)
     elif not learning.bootstrap:
         learn_one_goal(values, order, rule, cell_tm1, cell_t, rates)
 
@@ -109,81 +108,81 @@ def rule_of(learning):
 
 
 @inlined_kernel
-def rate_events(learning, constants, state, track, rates):
-    """The rates α ψ of the events in the cell that a track leaves (thesis eq. 4.7)."""
-    steps = 0
-    for event in range(len(constants.actions) + 1):
-        steps += state.tracks.events[track, event]
-    for event in range(len(constants.actions)):
-        count = state.tracks.events[track, event]
+def rate_events(agent, memory, own, t):
+    """α_a = ψ_a α of each event in the cell that a track leaves, 1 at most (thesis eq. 4.7; one file: `rates_of`)."""
+    learning, steps = agent.learning, 0
+    for event in range(agent.rates.shape[0] + 1):
+        steps += memory.events[t, event]
+    for event in range(agent.rates.shape[0]):
+        count = memory.events[t, event]
         credit = np.float32(count) / np.float32(steps)
         if learning.credit == Credit.happened:
             credit = UNIT if count > 0 else ZERO
         elif learning.credit == Credit.last:
-            credit = UNIT if event == state.last_event[0] else ZERO
+            credit = UNIT if event == agent.last_event else ZERO
         elif learning.credit == Credit.count:
             credit = np.float32(count)
         elif learning.credit == Credit.activity:
-            credit = state.activity[event] if state.activity[event] >= INACTIVE else ZERO
+            credit = agent.activity[event] if agent.activity[event] >= INACTIVE else ZERO
         elif learning.credit == Credit.own:
-            credit = np.float32(constants.credit(count, steps, event == state.last_event[0], state.activity[event]))
+            credit = np.float32(own.credit(count, steps, event == agent.last_event, agent.activity[event]))
             if credit != credit:
-                state.faults[OF_CREDIT] = 1
+                agent.faults[OF_CREDIT] = 1
             credit = credit if credit > ZERO else ZERO
-        rates[event] = min(learning.learning_rate * credit, UNIT)
+        agent.rates[event] = min(learning.learning_rate * credit, UNIT)
 
 
 @inlined_kernel
-def values_of(parameters, state, m):
+def values_of(agent, memory, nres):
     """The `MapValues` of a map."""
-    maps = parameters.maps
-    begin, end = maps.first_cell[m], maps.first_cell[m + 1]
-    return MapValues(state.values.q, maps.first_value[m], maps.goals[m], parameters.push.shape[0],
-                     state.values.goal_range[begin:end], state.values.scratch)
+    goal_range = memory.goal_range[nres.first_cell : nres.end_cell]
+    return MapValues(memory.q, nres.first_value, nres.goals, agent.rates.shape[0], goal_range, memory.scratch)
 
 
 @inlined_kernel
-def order_of(parameters, m):
+def order_of(agent, nres):
     """The `Order` of a map's values."""
-    goals, actions = np.uint64(parameters.maps.goals[m]), np.uint64(parameters.push.shape[0])
-    if parameters.learning.bootstrap and goals > 1:
+    goals, actions = np.uint64(nres.goals), np.uint64(agent.rates.shape[0])
+    if agent.learning.bootstrap and goals > 1:
         return Order(actions * goals, np.uint64(1), goals)
     return Order(actions, actions * goals, np.uint64(1))
 
 
 @inlined_kernel
-def trace_of(parameters, constants, tracks, m, point):
+def trace_of(agent, memory, nres, point):
     """The `Trace` of a track."""
-    maps, actions = parameters.maps, len(constants.actions)
-    begin = maps.first_trace[m] + point * maps.cells[m]
-    end = begin + maps.cells[m]
+    actions = agent.rates.shape[0]
+    begin = nres.first_trace + point * nres.cells
+    end = begin + nres.cells
     first, last = 2 * actions * begin, 2 * actions * end
-    return Trace(tracks.remembered[begin:end], tracks.remembered_at[begin:end], tracks.strength[begin:end],
-                 tracks.trace_weight[first:last], tracks.trace_worth[first:last], constants.actions)
+    return Trace(memory.remembered[begin:end], memory.remembered_at[begin:end], memory.strength[begin:end],
+                 memory.trace_weight[first:last], memory.trace_worth[first:last], agent.rates)
 
 
 @inlined_kernel
-def start_track(parameters, constants, tracks, m, point, cell):
+def start_track(agent, memory, nres, point, cell):
     """Start the track of a point in a cell, without a memory."""
-    track = np.uint64(parameters.maps.first_track[m] + point)
-    enter(constants, tracks, track, cell)
-    if tracks.remembered_count[track] > 0:
-        forget_all(trace_of(parameters, constants, tracks, m, point), tracks.remembered_count[track])
-        tracks.remembered_count[track] = 0
+    t = nres.first_track + point
+    enter(memory, t, cell)
+    if memory.tracks[t].remembered > 0:
+        forget_all(trace_of(agent, memory, nres, point), memory.tracks[t].remembered)
+        memory.tracks[t].remembered = 0
 
 
 @inlined_kernel
-def enter(constants, tracks, track, cell):
-    tracks.cell[track] = cell
-    for event in range(len(constants.actions) + 1):
-        tracks.events[track, event] = 0
+def enter(memory, t, cell):
+    """Let a track enter a cell, in which nothing has happened yet."""
+    memory.tracks[t].cell = cell
+    for event in range(memory.events.shape[1]):
+        memory.events[t, event] = 0
 
 
 @kernel
 def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
-    """One update of every goal of a map. rates: α ψ for each event.
+    """Q_i(s⁻, a) ← Q_i(s⁻, a) + α_a (R_i + γ max Q_i(s⁺, ·) − Q_i(s⁻, a)) for all goals i (eq. 4.8).
 
-    All values outside goal_range are zero and remain so, which saves most of the work in fine maps.
+    R_i is 1 if i is s⁺, else 0. rates: α_a. One file: `bootstrapped`. Values outside goal_range are zero and remain so,
+    which saves most of the work in fine maps.
     """
     q, cells, goal_range, target = values.q, values.goals, values.goal_range, values.scratch
     begin = min(min(goal_range[cell_tm1, 0], goal_range[cell_t, 0]), cell_t)
@@ -191,7 +190,8 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
     goal_range[cell_tm1, 0], goal_range[cell_tm1, 1] = begin, end
     count, last = end - begin, values.actions - 1
     row = values.first + cell_t * values.actions * cells + begin
-    for event in range(0, values.actions, 4):  # four actions at a time; the last is repeated if there are fewer
+    # γ max Q_i(s⁺, ·), four actions at a time, so that each target is written once; the last stands for those missing.
+    for event in range(0, values.actions, 4):
         factor = UNIT if event + 4 <= last else rule.discount
         first, second = row + event * cells, row + min(event + 1, last) * cells
         third, fourth = row + min(event + 2, last) * cells, row + min(event + 3, last) * cells
@@ -206,7 +206,7 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
                 target[goal] = factor * higher(best, target[goal])
     target[cell_t - begin] = UNIT if rule.terminal else UNIT + target[cell_t - begin]
     highest = UNIT if rule.terminal else UNIT / (UNIT - rule.discount)
-    for event in range(values.actions):
+    for event in range(values.actions):  # a loop for each form of the update, which compiles to vector instructions
         row = values.first + (cell_tm1 * values.actions + event) * cells + begin
         value = q[row : row + count]
         occurred = rates[event] > ZERO
@@ -228,7 +228,7 @@ def higher(one, other):
 
 @inlined_kernel
 def stepped(value, rate, target, bound):
-    """A value after a step towards its target, up to a bound."""
+    """Q + α (target − Q), up to a bound (one file: `updated`)."""
     new = value + rate * (target - value)
     new = new if new < bound else bound
     return new if new > SMALLEST else ZERO
@@ -236,10 +236,10 @@ def stepped(value, rate, target, bound):
 
 @kernel
 def learn_one_goal(values, order, rule, cell_tm1, goal, rates):
-    """Move each event's value for one goal towards 1, at `rates`; those of absent events sink."""
+    """Q_i(s⁻, a) ← Q_i(s⁻, a) + α_a (1 − Q_i(s⁻, a)) for the goal i = s⁺ alone; values of absent events sink."""
     widen(values.goal_range, cell_tm1, goal)
     for event in range(values.actions):
-        index = place_of(values, order, cell_tm1, goal) + np.uint64(event) * order.action
+        index = place_of(values.first, order, cell_tm1, goal) + np.uint64(event) * order.action
         if rates[event] > ZERO:
             values.q[index] += rates[event] * (UNIT - values.q[index])
         elif rule.absent_rate > ZERO:
@@ -247,9 +247,9 @@ def learn_one_goal(values, order, rule, cell_tm1, goal, rates):
 
 
 @inlined_kernel
-def place_of(values, order, cell, goal):
+def place_of(first, order, cell, goal):
     """The index in q at which a cell's action values for a goal begin; unsigned, since it is never negative."""
-    return np.uint64(values.first) + np.uint64(cell) * order.state + np.uint64(goal) * order.goal
+    return np.uint64(first) + np.uint64(cell) * order.state + np.uint64(goal) * order.goal
 
 
 @inlined_kernel
@@ -272,10 +272,13 @@ def sunk(value, rate, target, away, highest):
 
 @kernel
 def fade(trace, count, retained, discount):
-    """Let the memory fade to the share `retained`, and return how many cells are still remembered."""
+    """Weights × m / (1 + m), and worths × γ besides; return how many cells are still remembered.
+
+    retained: m / (1 + m), for a mean of m earlier cells.
+    """
     for i in range(count):
         trace.strength[i] *= retained
-    size, half = count * len(trace.actions), trace.cells.shape[0] * len(trace.actions)
+    size, half = count * trace.rates.shape[0], trace.cells.shape[0] * trace.rates.shape[0]
     for begin in range(0, 2 * half, half):
         weights, worths = trace.weight[begin : begin + size], trace.goal_worth[begin : begin + size]
         for i in range(size):
@@ -295,7 +298,7 @@ def fade(trace, count, retained, discount):
 @kernel
 def forget(trace, i, last):
     """Forget a cell: replace it by the last of the list."""
-    cells, actions = trace.cells, len(trace.actions)
+    cells, actions = trace.cells, trace.rates.shape[0]
     trace.places[cells[last]] = i + 1
     trace.places[cells[i]] = 0
     cells[i], trace.strength[i] = cells[last], trace.strength[last]
@@ -314,8 +317,8 @@ def forget_all(trace, count):
 
 @kernel
 def join(trace, count, cell, rates, absent_rate, strength, worth):
-    """Add a cell to the memory, at a strength and a worth of the goal, and return how many cells are remembered."""
-    actions, half = len(trace.actions), trace.cells.shape[0] * len(trace.actions)
+    """Σ α_a += α_a and Σ α_a γᵏ += α_a for a cell just left; return how many are remembered (one file: `join`)."""
+    actions, half = trace.rates.shape[0], trace.cells.shape[0] * trace.rates.shape[0]
     i = trace.places[cell] - 1
     if i < 0:
         i = count
@@ -336,23 +339,23 @@ def join(trace, count, cell, rates, absent_rate, strength, worth):
 
 @kernel
 def learn_remembered(values, order, rule, trace, count, goal):
-    """Learn, in all remembered cells, that they led to the goal.
+    """Q_i(s, a) ← Q_i(s, a) + min(Σ α_a, 1) (Σ α_a γᵏ / Σ α_a − Q_i(s, a)) in all cells s remembered, for i = s⁺.
 
-    All values are read before any is used: those of a fine map are not in the cache, and the processor can then wait
-    for many at a time.
+    The sums are over the times that s was left, k changes of cell ago (one file: `remembered`). All values are read
+    before any is used: those of a fine map are not in the cache, and the processor can then wait for many at a time.
     """
-    cells, actions, read = trace.cells, len(trace.actions), values.scratch
+    cells, actions, read = trace.cells, trace.rates.shape[0], values.scratch
     for i in range(count):
         widen(values.goal_range, np.uint64(cells[i]), goal)
     for i in range(count):
-        place = place_of(values, order, cells[i], goal)
+        place = place_of(values.first, order, cells[i], goal)
         for event in range(actions):
             read[np.uint64(i * actions + event)] = values.q[place + np.uint64(event) * order.action]
     size, half = count * actions, cells.shape[0] * actions
     move(read, size, trace.weight[:size], trace.goal_worth[:size], trace.weight[half : half + size],
          trace.goal_worth[half : half + size], rule.away)
     for i in range(count):
-        place = place_of(values, order, cells[i], goal)
+        place = place_of(values.first, order, cells[i], goal)
         for event in range(actions):
             values.q[place + np.uint64(event) * order.action] = read[np.uint64(i * actions + event)]
 

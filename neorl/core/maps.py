@@ -18,7 +18,7 @@ from neorl.core.calls import execute
 from neorl.core.geometry import cell_of, in_range
 from neorl.core.kernel import array, kernel
 from neorl.core.modality import MOST_CELLS, PLACE_CELL, Modality, as_turns, space_of
-from neorl.core.parameters import SpaceParameters
+from neorl.core.record import Memory, Record
 
 
 @dataclass(frozen=True)
@@ -59,15 +59,15 @@ class NresMap(checks.Final):
         """
         points = checks.points("points", points, self.modality.names)
         cells = np.zeros(points.shape[:-1], np.int64)
-        execute(encode, space_of(self.modality, self.resolution), as_turns(self.modality, points), cells.reshape(-1))
+        execute(encode, *space_of(self.modality, self.resolution), as_turns(self.modality, points), cells.reshape(-1))
         return cells
 
 
 @kernel
-def encode(space: SpaceParameters, points: array("float64", "points", "coordinates"),
+def encode(agent: Record, memory: Memory, points: array("float64", "points", "coordinates"),
            cells: array("int64", "points")) -> None:
-    """The cell of each point in the space's only map; points are brought into its range in place."""
+    """The cell of each point in the only map; points are brought into its range in place."""
     for point in range(cells.shape[0]):
-        for axis in range(points.shape[1]):
-            points[point, axis] = in_range(space.axes, axis, points[point, axis])
-        cells[point] = cell_of(space, points[point], 0, 0)
+        for i in range(points.shape[1]):
+            points[point, i] = in_range(memory, agent.axes[i], points[point, i])
+        cells[point] = cell_of(memory, agent.nodes[0], agent.maps[0], points[point])

@@ -29,12 +29,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
 from neorl.checks import OneOf, Within
-from neorl.core.calls import execute, in_table, interpret
+from neorl.core.building import firsts, new_agent
+from neorl.core.called import Own, features
+from neorl.core.calls import execute, in_table
 from neorl.core.choices import Cut, Feature, MapState, Vector
-from neorl.core.constants import Constants, features
 from neorl.core.geometry import TAU, locate
 from neorl.core.kernel import array, check_kernel, full_name, kernel, new_tuple
-from neorl.core.parameters import SpaceParameters, cut_axes
+from neorl.core.record import Memory, Record
 from neorl.core.scene import MOST_AXES, Scene, checked_scene
 
 VECTORS = ("position", "velocity", "objects", "boundaries", "landmarks")
@@ -250,11 +251,10 @@ class Modality(checks.Final):
     def _locate(self, size, scene, given, vectors, found):
         """Write the coordinates of all points into `found`; given: from their vectors instead of the scene."""
         uncut = replace(self, axes=[replace(axis, boundaries=()) for axis in self.axes])
-        axes = tuple(range(len(scene.position)))
-        constants = Constants((0,), axes, 0, features(*self.functions))
-        faults = np.zeros(2, np.int64)
-        execute(locate_all, space_of(uncut, 1, len(axes), size), constants, scene, given, vectors, found, faults)
-        check_faults(faults, self.functions)
+        agent, memory = space_of(uncut, 1, len(scene.position), size)
+        agent = agent.copy()  # which other threads write to, too
+        execute(locate_all, agent, memory, scene, Own(features(*self.functions)), given, vectors, found)
+        check_faults(agent["faults"], self.functions)
 
     def check_axes(self, n_axes: int) -> None:
         """Raise ValueError unless these cells are defined in a world of `n_axes` axes."""
@@ -297,19 +297,19 @@ def as_turns(modality, points):
 
 @functools.lru_cache(maxsize=64)
 def space_of(modality, resolution, n_axes=None, size=1.0):
-    """The `SpaceParameters` of a map of a modality, as `execute` passes them on; kept for loops of single points."""
+    """The record of an agent of a single map, and its memory as `execute` passes it on; kept for loops of points."""
     n_axes = n_axes or modality.least_axes
-    given, sizes = axis_parameters([modality], n_axes)
-    given["nodes"]["first_map"] = integers([0, 1])
-    sizes |= {"maps": 1, "map_axes": len(modality.axes), "axes": n_axes, "desires": 0}
-    space = new_tuple(SpaceParameters, sizes, given | {"size": float(size), "maps": {
-        "resolution": np.array([resolution])}})
-    interpret(cut_axes, space, 0, 0)
-    return in_table(space)
+    choices, none = axis_parameters([modality], n_axes), np.zeros(0, np.int64)
+    choices["nodes"] |= {"first_map": integers([0, 1]), "order": integers([0])}
+    agent, memory = new_agent(choices | {
+        "size": size, "push": np.zeros((1, n_axes)), "frames": np.zeros((0, 1), np.int64),
+        "maps": {"resolution": integers([resolution])},
+        "desires": {"source": none, "target": none, "elements": [], "at": np.zeros((0, n_axes)), "valence": none}}, 0)
+    return agent, in_table(memory)
 
 
 def axis_parameters(modalities, n_axes):
-    """The parameters of the modalities of all nodes, {"nodes": …, "axes": …}, and sizes.
+    """The parameters of the modalities of all nodes, {"nodes": …, "axes": …}.
 
     The choices of a node that depend on its modality are those of `Node()`: a map never ends, and its state is the
     object.
@@ -329,8 +329,7 @@ def axis_parameters(modalities, n_axes):
         "what": np.array([_what(axis, own) for axis in axes], np.int64),
         "low": np.array([axis.low for axis in axes]), "high": np.array([axis.high for axis in axes]),
         "first_boundary": firsts(map(len, inner)), "boundary": np.array([each for one in inner for each in one], float),
-    }}, {"nodes": len(modalities), "node_axes": len(axes), "boundaries": sum(map(len, inner)),
-         "landmarks": len(landmarks)}
+    }}
 
 
 def _what(axis, own):
@@ -346,18 +345,16 @@ def integers(values):
     return np.array([int(value) for value in values], np.int64)
 
 
-def firsts(counts):
-    """The start of each of several lists of given lengths, one after the other, and the end of the last: int64."""
-    return np.concatenate([[0], np.cumsum(integers(counts))]).astype(np.int64)
-
-
 @kernel
-def locate_all(space: SpaceParameters, constants: Constants, scene: Scene, given: bool,
-               vectors: array("float64", "points", "axes"), found: array("float64", "points", "coordinates"),
-               faults: array("int64", 2)) -> None:
-    """Write the coordinates of points of the space's only node into `found`, see `neorl.core.geometry.locate`."""
+def locate_all(agent: Record, memory: Memory, scene: Scene, own: Own, given: bool,
+               vectors: array("float64", "points", "axes"), found: array("float64", "points", "coordinates")) -> None:
+    """Write the coordinates of points of the only node into `found`, see `neorl.core.geometry.locate`."""
     for point in range(found.shape[0]):
-        locate(space, constants, scene, 0, point, given, vectors[point], found[point], faults)
+        for axis in range(vectors.shape[1]):
+            agent.offset[axis] = vectors[point, axis]
+        locate(agent, memory, scene, own, agent.nodes[0], point, given)
+        for i in range(found.shape[1]):
+            found[point, i] = agent.coordinates[i]
 
 
 # O'Keefe and Dostrovsky 1971; Solstad et al. 2008; Høydal et al. 2019 and, in its Cartesian emulation, paper B,

@@ -13,203 +13,219 @@
 3. The sum of the pushes of all actions, times their values, turns a Q-vector into a vector in the world: a desire. The
    end of that vector is an element of interest for the next node.
 
+In `notebooks/companion/one_file.py`, 1 is `selected` in section 2, 2 `values`, 3 `elements`, and the choice section 3.
 `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
 
 import numpy as np
 
 from neorl.core.choices import MapState, Source, Vector
-from neorl.core.geometry import STRIDE, cell_within, contact_cell, interval_at, locate, maps_of
+from neorl.core.geometry import cell_within, contact_cell, interval_at, locate
 from neorl.core.kernel import inlined_kernel
-from neorl.core.learning import order_of, place_of, values_of
+from neorl.core.learning import order_of, place_of
 from neorl.core.policy import greedy
 from neorl.core.stream import randint, uniform
 
 
 @inlined_kernel
-def choose(parameters, constants, state, scene):
-    """The action of the behaviour policy."""
-    policy, value = parameters.policy, state.action_value
-    if policy.exploration > 0.0 and uniform(state.stream) < policy.exploration:
-        return randint(state.stream, len(constants.actions))
-    evaluate(parameters, constants, state, scene)
+def choose(agent, memory, scene, calls):
+    """a = argmax Q(s, ·), ties broken at random, or what the user's policy chooses (one file: `choose`)."""
+    policy, value, actions = agent.policy, agent.action_value, agent.action_value.shape[0]
+    if policy.exploration > 0.0 and uniform(agent.stream) < policy.exploration:
+        return randint(agent.stream, actions)
+    evaluate(agent, memory, scene, calls)
     if policy.indifferent_is_no_op:
         wanted = 0
-        for action in range(len(constants.actions)):
+        for action in range(actions):
             wanted += value[action] != 0.0
         if wanted == 0:
-            return len(constants.actions)
-    action = greedy(value, state.stream) if policy.is_greedy else constants.choose(state)
-    return min(max(action, 0), constants.last)  # a user-defined policy may return any number
+            return actions
+    action = greedy(value, agent.stream) if policy.is_greedy else calls.own.choose(agent)
+    return min(max(action, 0), policy.last)  # a user-defined policy may return any number
 
 
 @inlined_kernel
-def evaluate(parameters, constants, state, scene):
-    """Compute the value of each action, in state.action_value: the sum of Q-vectors times gains, nodes in order."""
-    nodes, desires = parameters.nodes, state.desires
-    for action in range(len(constants.actions)):
-        state.action_value[action] = 0.0
-    for axis in range(len(constants.axes)):
-        state.here[axis] = scene.position[axis] / parameters.size
-    for place in range(nodes.order.shape[0]):
-        n = nodes.order[place]
-        inputs = nodes.inputs[nodes.first_input[n] : nodes.first_input[n + 1]]
-        # All before any is updated, since recursion uses those of the last step.
-        for i in range(inputs.shape[0] if nodes.receives[n] else 0):
-            if parameters.desires.source[inputs[i]] == Source.node:
-                project(parameters, constants, desires, np.uint64(inputs[i]))
-        if nodes.learns_contacts[n]:
-            constants.evaluate_contacts(parameters, constants, state, scene, n)
-        for i in range(inputs.shape[0]):
-            e = np.uint64(inputs[i])
-            if not nodes.learns_contacts[n]:
-                evaluate_desire(parameters, constants, state, scene, n, e)
-            for action in range(len(constants.actions)):
-                state.action_value[action] += nodes.gain[n] * desires.q[e, action]
+def evaluate(agent, memory, scene, calls):
+    """Q(s, a) = Σ gain Σ Q_e(s, a) over nodes in order and their desires e (eq. 4.3), into agent.action_value."""
+    for action in range(agent.action_value.shape[0]):
+        agent.action_value[action] = 0.0
+    for axis in range(agent.here.shape[0]):
+        agent.here[axis] = scene.position[axis] / agent.size
+    for place in range(agent.n_nodes):
+        n = agent.order[place]
+        node = agent.nodes[n]
+        if node.receives:  # all before any is updated, since recursion uses those of the last step
+            for i in range(node.first_input, node.end_input):
+                if agent.desires[agent.inputs[i]].source == Source.node:
+                    project(agent, memory, agent.desires[agent.inputs[i]])
+        if node.learns_contacts:
+            calls.evaluate_contacts(agent, memory, scene, calls.own, n)
+        for i in range(node.first_input, node.end_input):
+            desire = agent.desires[agent.inputs[i]]
+            if not node.learns_contacts:
+                evaluate_desire(agent, memory, scene, calls.own, node, desire)
+            for action in range(agent.action_value.shape[0]):
+                agent.action_value[action] += node.gain * desire.q[action]
 
 
 @inlined_kernel
-def project(parameters, constants, desires, e):
-    """Compute where the desire of a node lands, and its valence, in desires.target."""
-    chosen, target, n_axes = parameters.desires, desires.target, len(constants.axes)
-    for axis in range(n_axes):
-        target[e, axis] = 0.0
-    valence = 0.0
-    for i in range(chosen.source.shape[0]):
-        if chosen.elements[e, i]:
-            valence += desires.valence[i]
-            towards = chosen.signed[e] or desires.valence[i] > 0.0
-            for axis in range(n_axes):
-                pushed = 0.0
-                for action in range(len(constants.actions)):
-                    pushed += parameters.push[action, axis] * desires.q[i, action]
-                target[e, axis] += pushed if towards else -pushed
-    for axis in range(n_axes):
-        target[e, axis] *= chosen.scale[e]
-    target[e, n_axes] = valence if chosen.sums_valence[e] else chosen.valence[e]
+def project(agent, memory, desire):
+    """d = scale Σ_e Σ_a push_a Q_e(a) over elements e: where the desire of a node lands, and its valence Σ w."""
+    axes, valence = agent.here.shape[0], 0.0
+    for axis in range(axes):
+        desire.target_at[axis] = 0.0
+    for i in range(desire.first_element, desire.end_element):
+        element = agent.desires[memory.elements[i]]
+        valence += element.total_valence
+        towards = desire.signed or element.total_valence > 0.0
+        for axis in range(axes):
+            pushed = 0.0
+            for action in range(agent.action_value.shape[0]):
+                pushed += agent.push[action, axis] * element.q[action]
+            desire.target_at[axis] += pushed if towards else -pushed
+    for axis in range(axes):
+        desire.target_at[axis] *= desire.scale
+    desire.target_valence = valence if desire.sums_valence else desire.valence
 
 
 @inlined_kernel
-def evaluate_desire(parameters, constants, state, scene, n, e):
-    """Compute a desire's contribution to its node's Q-vector, and its elements' total valence, in state.desires."""
-    chosen, desires, n_axes = parameters.desires, state.desires, len(constants.axes)
-    q, source, valence = desires.q[e], chosen.source[e], desires.worth[e]
-    for action in range(len(constants.actions)):
-        q[action] = 0.0
+def evaluate_desire(agent, memory, scene, own, node, desire):
+    """Q_e(s, a) = Σ w_i Q_i(s, a) over the elements of a desire (eq. 4.4), and their total valence Σ w_i."""
+    source, valence = desire.source, desire.worth
+    for action in range(agent.action_value.shape[0]):
+        desire.q[action] = 0.0
     if source == Source.node:
-        valence = desires.target[e, n_axes]
-    desires.valence[e] = 0.0 if source == Source.kind else valence
+        valence = desire.target_valence
+    desire.total_valence = 0.0 if source == Source.kind else valence
     if source == Source.point:
-        for m in maps_of(parameters.nodes, n):
-            for track in range(parameters.maps.first_track[m], parameters.maps.first_track[m + 1]):
-                if state.tracks.cell[track] >= 0:
-                    add_value(parameters, constants, state, n, m, state.tracks.cell[track], chosen.goal[e, m], valence,
-                              q)
+        for m in range(node.first_map, node.end_map):
+            nres, goal = agent.maps[m], memory.goals[desire.first_goal + int(m - node.first_map)]
+            for t in range(nres.first_track, nres.end_track):
+                if memory.tracks[t].cell >= 0:
+                    add_value(agent, memory, node, nres, memory.tracks[t].cell, goal, valence, desire.q)
         return
-    state.evaluation[0] += 1
-    of_place = parameters.nodes.follows[n] == Vector.position
-    sees_things = (source == Source.kind and parameters.nodes.follows[n] == Vector.objects
-                   and parameters.nodes.state[n] == MapState.object)
+    agent.evaluation += 1
+    of_place = node.follows == Vector.position
+    sees_things = source == Source.kind and node.follows == Vector.objects and node.state == MapState.object
     for thing in range(scene.kinds.shape[0] if source == Source.kind else 1):
         if source == Source.kind:
-            if scene.kinds[thing] != chosen.kind[e]:
+            if scene.kinds[thing] != desire.kind:
                 continue
-            desires.valence[e] += valence
+            desire.total_valence += valence
         if sees_things:
-            for m in maps_of(parameters.nodes, n):
-                cell = state.tracks.cell[np.uint64(parameters.maps.first_track[m] + thing)]
-                if counts(parameters, state, m, cell):
-                    add_contact(parameters, constants, state, n, m, cell, valence, q)
+            for m in range(node.first_map, node.end_map):
+                nres = agent.maps[m]
+                cell = memory.tracks[nres.first_track + thing].cell
+                if counts(agent, memory, nres, cell):
+                    add_contact(agent, memory, node, nres, cell, valence, desire.q)
             continue
-        for axis in range(n_axes):
-            here = state.here[axis]
+        for axis in range(agent.here.shape[0]):
+            here = agent.here[axis]
             if source == Source.node:
-                offset = desires.target[e, axis]
+                offset = desire.target_at[axis]
             elif source == Source.place:
-                offset = chosen.at[e, axis] - here
+                offset = desire.place[axis] - here
             else:
-                offset = scene.things[thing, axis] / parameters.size - here
-            state.offset[axis] = offset + here if of_place else offset
-        add_element(parameters, constants, state, scene, n, valence, q)
+                offset = scene.things[thing, axis] / agent.size - here
+            agent.offset[axis] = offset + here if of_place else offset
+        add_element(agent, memory, scene, own, node, valence, desire.q)
 
 
 @inlined_kernel
-def add_element(parameters, constants, state, scene, n, valence, q):
-    """Add the values of an element in every map of a node; state.offset is its vector, as followed by the node."""
-    maps, nodes = parameters.maps, parameters.nodes
-    has_direction, coordinates = True, state.offset
-    if not nodes.is_cartesian[n]:
-        has_direction, _ = locate(parameters, constants, scene, n, 0, True, state.offset, state.coordinates,
-                                  state.faults)
-        coordinates = state.coordinates
-    of_agent = nodes.follows[n] == Vector.position or nodes.follows[n] == Vector.velocity
+def add_element(agent, memory, scene, own, node, valence, q):
+    """Add the values of an element in every map of a node; agent.offset is its vector, as followed by the node."""
+    has_direction, coordinates = True, agent.offset
+    if not node.is_cartesian:
+        has_direction, _ = locate(agent, memory, scene, own, node, 0, True)
+        coordinates = agent.coordinates
+    of_agent = node.follows == Vector.position or node.follows == Vector.velocity
     if of_agent and not has_direction:
         return
-    for m in maps_of(nodes, n):
-        cell = cell_within(parameters, coordinates, n, m)
-        if not counts(parameters, state, m, cell):
+    for m in range(node.first_map, node.end_map):
+        nres = agent.maps[m]
+        cell = cell_within(agent, memory, node, nres, coordinates)
+        if not counts(agent, memory, nres, cell):
             continue
         if of_agent:
-            add_goals(parameters, constants, state, n, m, state.tracks.cell[np.uint64(maps.first_track[m])], cell,
-                      valence, q)
-        elif nodes.state[n] == MapState.object:
-            add_contact(parameters, constants, state, n, m, cell, valence, q)
+            add_goals(agent, memory, node, nres, memory.tracks[nres.first_track].cell, cell, valence, q)
+        elif node.state == MapState.object:
+            add_contact(agent, memory, node, nres, cell, valence, q)
         else:
-            add_value(parameters, constants, state, n, m, maps.contact[m], cell, valence, q)
+            add_value(agent, memory, node, nres, nres.contact, cell, valence, q)
 
 
 @inlined_kernel
-def counts(parameters, state, m, cell):
+def counts(agent, memory, nres, cell):
     """Whether an element in a cell of a map counts beside those of its desire that came before it."""
-    if not parameters.shared_cell_counts_once or cell < 0:
+    if not agent.shared_cell_counts_once or cell < 0:
         return True
-    place = np.uint64(parameters.maps.first_cell[m] + cell)
-    is_first = state.counted[place] != state.evaluation[0]
-    state.counted[place] = state.evaluation[0]
+    place = nres.first_cell + cell
+    is_first = memory.counted[place] != agent.evaluation
+    memory.counted[place] = agent.evaluation
     return is_first
 
 
 @inlined_kernel
-def add_contact(parameters, constants, state, n, m, cell, valence, q):
+def add_contact(agent, memory, node, nres, cell, valence, q):
     """Add the values of a thing's contact with the agent, or of every cell that the contact reaches."""
-    reach, first = parameters.nodes.reach[n], np.uint64(parameters.maps.first_grid[m])
-    if reach == 0.0 or cell < 0:
-        add_goals(parameters, constants, state, n, m, cell, contact_cell(parameters.maps, m, cell), valence, q)
+    if node.reach == 0.0 or cell < 0:
+        add_goals(agent, memory, node, nres, cell, contact_cell(nres, cell), valence, q)
         return
     boxes = 1
-    for axis in range(len(constants.axes)):
-        cut = parameters.grid[first + axis]
-        boxes *= int(interval_at(cut, reach) - interval_at(cut, -reach)) + 1
+    for axis in range(node.axes):
+        cut = memory.cuts[nres.first_cut + axis]
+        boxes *= int(interval_at(cut, node.reach) - interval_at(cut, -node.reach)) + 1
     for box in range(boxes):
         goal, rest = 0, box
-        for axis in range(len(constants.axes)):
-            cut = parameters.grid[first + axis]
-            lowest = int(interval_at(cut, -reach))
-            side = int(interval_at(cut, reach)) - lowest + 1
-            goal += int(cut[STRIDE]) * (lowest + rest % side)
+        for axis in range(node.axes):
+            cut = memory.cuts[nres.first_cut + axis]
+            lowest = int(interval_at(cut, -node.reach))
+            side = int(interval_at(cut, node.reach)) - lowest + 1
+            goal += int(cut.stride) * (lowest + rest % side)
             rest //= side
-        add_value(parameters, constants, state, n, m, cell, goal, valence, q)
+        add_value(agent, memory, node, nres, cell, goal, valence, q)
 
 
 @inlined_kernel
-def add_goals(parameters, constants, state, n, m, cell, goal, valence, q):
+def add_goals(agent, memory, node, nres, cell, goal, valence, q):
     """Add the values of all goals that differ from one only along axes on which an element has no place."""
-    followed = parameters.maps.followed[m]
-    if followed == parameters.maps.cells[m]:
-        add_value(parameters, constants, state, n, m, cell, goal, valence, q)
+    if nres.followed == nres.cells:
+        add_value(agent, memory, node, nres, cell, goal, valence, q)
     elif goal >= 0:
-        for other in range(goal % followed, parameters.maps.cells[m], followed):
-            add_value(parameters, constants, state, n, m, cell, other, valence, q)
+        for other in range(goal % nres.followed, nres.cells, nres.followed):
+            add_value(agent, memory, node, nres, cell, other, valence, q)
 
 
 @inlined_kernel
-def add_value(parameters, constants, state, n, m, cell, goal, valence, q):
-    """Add one goal's value of each action in a cell, times its valence and the weight of the map."""
-    maps, actions = parameters.maps, len(constants.actions)
-    if cell >= 0 and goal >= 0 and (goal != cell or parameters.own_cell_counts):
-        weight, order = maps.weight[m] * valence, order_of(parameters, m)
-        if parameters.nodes.state[n] != MapState.object:
+def add_value(agent, memory, node, nres, cell, goal, valence, q):
+    """Q(a) += weight w_i Q_i(s, a) for each action: a goal's values in a cell, by the map's weight and its valence."""
+    if cell >= 0 and goal >= 0 and (goal != cell or agent.own_cell_counts):
+        weight, order = nres.weight * valence, order_of(agent, nres)
+        if node.state != MapState.object:
             cell, goal = goal, 0  # the only state is the centre, so the values are found by the goal
-        place = place_of(values_of(parameters, state, m), order, cell, goal)
-        for action in range(actions):
-            q[action] += weight * state.values.q[place + np.uint64(action) * order.action]
+        place = place_of(nres.first_value, order, cell, goal)
+        for action in range(agent.action_value.shape[0]):
+            q[action] += weight * memory.q[place + np.uint64(action) * order.action]
+
+
+@inlined_kernel
+def learn_worth(agent, scene):
+    """Learn, for desires, the worth of kinds of things from the rewards on meeting them (Rescorla and Wagner 1972).
+
+    The reward of a step beyond the worths of the things met in it updates the worth of each of their kinds, at the rate
+    1 / n for the n-th meeting, or a tenth if that is higher.
+    """
+    surprise = agent.reward
+    for e in range(agent.n_desires):
+        desire = agent.desires[e]
+        if desire.learned:
+            for thing in range(scene.met.shape[0]):
+                if scene.met[thing] == desire.kind + 1:
+                    surprise -= desire.worth
+    for e in range(agent.n_desires):
+        desire = agent.desires[e]
+        if desire.learned:
+            for thing in range(scene.met.shape[0]):
+                if scene.met[thing] == desire.kind + 1:
+                    desire.meetings += 1
+                    desire.worth += max(0.1, 1.0 / desire.meetings) * surprise

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl import checks
-from neorl.core.calls import tabled
-from neorl.core.kernel import array
+
+from neorl.core.kernel import array, tabled
 
 MOST_AXES, MOST_ACTIONS = 8, 1_024  # of a world; kernels are compiled for their numbers
 ABSENT = -1  # instead of the number of a kind

@@ -14,7 +14,8 @@ from neorl.core.identity import digest_of_source, identity
 from neorl.worlds.world import World
 
 # Everything that takes part in a run.
-PARTS = ("checks", "container", "extras", "files", "warn", "core", "description", "worlds", "agents", "experiments")
+PARTS = ("checks", "container", "extras", "files", "warn", "core", "description", "worlds", "beyond", "agents",
+         "experiments")
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.agents.agent import Agent
-from neorl.agents.compile import constants_of
+from neorl.agents.compile import life_of
 from neorl.agents.individual import Individual
 from neorl.agents.memory import kept_apart, on_lines_of_its_own
 from neorl.core import life
@@ -66,7 +66,7 @@ class Run(Individual):
     not fit into the free memory.
     """
 
-    _kept = ("_state", "_world_state")
+    _kept = ("_record", "_memory", "_world_state")
 
     def __init__(self, agent: Agent, world: World, seed: int = 0, run: int = 0, after: Self | None = None) -> None:
         checks.instance("agent", agent, Agent)
@@ -79,7 +79,7 @@ class Run(Individual):
         self._live(agent, world, new_stream(sequence.spawn(1)[0]), after)
         self._progress = 0
         self._bind()
-        execute(life.begin, *self._life, self._scene)
+        execute(life.begin, self._record, self._memory, self._scene, life_of(agent).calls)
 
     @classmethod
     def _of(cls, agent, world):
@@ -90,7 +90,8 @@ class Run(Individual):
         return self._world_state.scene
 
     def _bind(self):
-        self._life = [in_table(each) for each in (self._parameters, constants_of(self.agent, self.world), self._state)]
+        self._life = [in_table(each, self._record.dtype) for each in (
+            self._record, self._memory, self._scene, life_of(self.agent))]
 
     @property
     def world_state(self) -> Any:
@@ -183,7 +184,7 @@ class Run(Individual):
         """Take the steps up to `last` by a kernel; returns what it returns."""
         clock = on_lines_of_its_own(np.array([self.step, 0]))
         try:
-            return execute(kernel, *self._life, self._scene, self._world_state, checked_rules(self.world), clock, last,
+            return execute(kernel, *self._life, self._world_state, checked_rules(self.world), clock, last,
                            *into)
         finally:
             self._progress = int(clock[0])  # also if interrupted: Python handles that once the kernel returns

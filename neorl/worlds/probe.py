@@ -1,65 +1,60 @@
 """Kernels for viewers: probe the values of an agent anywhere, and add a second player to WaterWorld."""
 
 from neorl.core import life
+from neorl.core.called import Calls
 from neorl.core.choices import MapState, Vector
-from neorl.core.constants import Constants
 from neorl.core.geometry import cell_within, locate
 from neorl.core.kernel import array, kernel
 from neorl.core.network import evaluate
-from neorl.core.parameters import Parameters
+from neorl.core.record import Memory, Record
 from neorl.core.scene import Scene
-from neorl.core.state import State
 from neorl.worlds.waterworld import Rules, WaterWorldState, move_agent, reset, touch_creeps
 
 HALF_SECOND = 0.5  # a velocity is shown at the place that the agent would reach in this time
 
 
 @kernel
-def survey(parameters: Parameters, constants: Constants, state: State, elsewhere: State, there: Scene, side: int,
+def survey(agent: Record, double: Record, memory: Memory, there: Scene, calls: Calls, side: int,
            values: array("float64", "tiles", "actions")) -> None:
     """The value of each action if the agent were in the middle of each of side × side tiles, row by row.
 
-    elsewhere: a scratch state with the agent's q and goal_range. there: the scene, with a scratch position.
+    double, memory: those of the agent, with tracks of their own. there: the scene, with a position of its own.
     """
     for tile in range(side * side):
-        there.position[0] = (tile % side + 0.5) / side * parameters.size
-        there.position[1] = (tile // side + 0.5) / side * parameters.size
-        life.begin(parameters, constants, elsewhere, there)
-        for e in range(state.desires.valence.shape[0]):  # recursion uses the agent's own of the previous step
-            elsewhere.desires.valence[e] = state.desires.valence[e]
-            elsewhere.desires.worth[e] = state.desires.worth[e]
-            for action in range(len(constants.actions)):
-                elsewhere.desires.q[e, action] = state.desires.q[e, action]
-        evaluate(parameters, constants, elsewhere, there)
-        for action in range(len(constants.actions)):
-            values[tile, action] = elsewhere.action_value[action]
+        there.position[0] = (tile % side + 0.5) / side * agent.size
+        there.position[1] = (tile // side + 0.5) / side * agent.size
+        life.begin(double, memory, there, calls)
+        for e in range(agent.n_desires):  # recursion uses the agent's own of the previous step
+            double.desires[e].total_valence = agent.desires[e].total_valence
+            double.desires[e].worth = agent.desires[e].worth
+            for action in range(agent.action_value.shape[0]):
+                double.desires[e].q[action] = agent.desires[e].q[action]
+        evaluate(double, memory, there, calls)
+        for action in range(agent.action_value.shape[0]):
+            values[tile, action] = double.action_value[action]
 
 
 @kernel
-def cell_seen_at(parameters: Parameters, constants: Constants, elsewhere: State, scene: Scene, m: int, x: float,
-                 y: float) -> int:
+def cell_seen_at(agent: Record, memory: Memory, scene: Scene, calls: Calls, m: int, x: float, y: float) -> int:
     """The cell of a map for a place in the world; if the map represents things, for a thing there.
 
-    elsewhere: a scratch state. Along the axes of other vectors, the cell is that of what the agent perceives.
-    ABSENT for a place beyond a map that ends.
+    agent: a record that may be written to. Along the axes of other vectors, the cell is that of what the agent
+    perceives. ABSENT for a place beyond a map that ends.
     """
-    nodes, offset = parameters.nodes, elsewhere.offset
-    n = 0
-    while nodes.first_map[n + 1] <= m:
-        n += 1
+    node, offset = agent.nodes[agent.maps[m].node], agent.offset
     offset[0], offset[1] = x, y
-    if nodes.follows[n] != Vector.position:
-        for axis in range(len(constants.axes)):
-            offset[axis] -= scene.position[axis] / parameters.size
-            if nodes.follows[n] == Vector.velocity:
+    if node.follows != Vector.position:
+        for axis in range(agent.here.shape[0]):
+            offset[axis] -= scene.position[axis] / agent.size
+            if node.follows == Vector.velocity:
                 offset[axis] /= HALF_SECOND
-    locate(parameters, constants, scene, n, 0, True, offset, elsewhere.coordinates, elsewhere.faults)
-    return cell_within(parameters, elsewhere.coordinates, n, m)
+    locate(agent, memory, scene, calls.own, node, 0, True)
+    return cell_within(agent, memory, node, agent.maps[m], agent.coordinates)
 
 
 @kernel
-def step_second(parameters: Parameters, constants: Constants, state: State, scene: Scene, board: WaterWorldState,
-                rules: Rules, second: Scene, action: int) -> float:
+def step_second(agent: Record, memory: Memory, scene: Scene, calls: Calls, board: WaterWorldState, rules: Rules,
+                second: Scene, action: int) -> float:
     """Take an action of a second agent on the same board, and return its reward.
 
     scene: of the board. second: the same, with the second agent's own position and velocity. The first agent does not
@@ -68,13 +63,13 @@ def step_second(parameters: Parameters, constants: Constants, state: State, scen
     move_agent(second, rules, action)
     reward, done = touch_creeps(WaterWorldState(second, board.direction, board.speed, board.jitter, board.stream),
                                 rules)
-    for n in range(parameters.nodes.points.shape[0]):
-        if parameters.nodes.follows[n] == Vector.objects and parameters.nodes.state[n] != MapState.self:
+    for n in range(agent.n_nodes):
+        if agent.nodes[n].follows == Vector.objects and agent.nodes[n].state != MapState.self:
             for creep in range(second.met.shape[0]):
                 if second.met[creep] != 0:
-                    life.begin_point(parameters, constants, state, scene, n, creep)
+                    life.begin_point(agent, memory, scene, calls, n, creep)
     if done:
         reset(board, rules)
-        if parameters.notices_resets:
-            life.begin(parameters, constants, state, scene)
+        if agent.notices_resets:
+            life.begin(agent, memory, scene, calls)
     return reward

@@ -1,10 +1,11 @@
 """The rollout of an agent in a world: choose, act, advance the world, perceive and learn, step after step.
 
-There are two: `rollout` only adds up rewards and contacts, and `recorded` writes down where the agent was as well. Both
-end early after a step or a reset that broke a rule of worlds; clock[1] is then 1 for a reset.
+In `notebooks/companion/one_file.py`, this is `simulate`. There are two: `rollout` adds up rewards and contacts, and
+`recorded` writes down where the agent was as well. Both end early after a step or a reset that broke a rule of worlds;
+clock[1] is then 1 for a reset.
 
 The kernels of the world are compiled into the rollout, so a user-defined world runs as fast as those of the package.
-The agent's kernels are called (`neorl.core.constants`), so they are compiled once for all worlds.
+The agent's kernels are called (`neorl.core.called`), so they are compiled once for all worlds.
 """
 
 import functools
@@ -12,11 +13,10 @@ import functools
 import numpy as np
 
 from neorl.checks import LARGEST
-from neorl.core.constants import Constants
+from neorl.core.called import Life
 from neorl.core.kernel import array, fields, inlined, inlined_kernel, kernel
-from neorl.core.parameters import Parameters
+from neorl.core.record import Memory, Record
 from neorl.core.scene import ABSENT, Scene
-from neorl.core.state import State
 
 
 MOST_HITS = 32_767  # in a bin, the maximum of its type
@@ -48,14 +48,14 @@ def keeps_rules(scene, n_kinds):
 
 
 @inlined_kernel
-def observed(parameters, constants, state, scene, reward, hits, interval, most):
+def observed(agent, memory, scene, life, reward, hits, interval, most):
     """Perceive the outcome of an action, learn from it, and add the things met to hits[interval], up to `most` each.
 
     Returns whether the scene keeps the rules; counting ends at the first thing that does not.
     """
-    state.reward[0] = reward
-    constants.observe(parameters, constants, state, scene)
-    if not is_placed(scene, len(constants.axes)):  # at once, since a later step may put the agent back
+    agent.reward = reward
+    life.observe(agent, memory, scene, life.calls)
+    if not is_placed(scene, scene.position.shape[0]):  # at once, since a later step may put the agent back
         return False
     for thing in range(scene.met.shape[0]):
         met = scene.met[thing]
@@ -73,7 +73,7 @@ def rollout_in(dynamics):
     world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
 
     @kernel
-    def rollout(parameters: Parameters, constants: Constants, state: State, scene: Scene,
+    def rollout(agent: Record, memory: Memory, scene: Scene, life: Life,
                 world_state: world_type, rules: rules_type, clock: array("int64", 2), last_step: int, total: float,
                 bin_steps: int, rewards: array("float32", "bins"), hits: array("int16", "bins", "kinds")) -> float:
         """Take the steps clock[0] … last_step − 1, adding rewards and contacts to the bins of `rewards` and `hits`.
@@ -82,7 +82,7 @@ def rollout_in(dynamics):
         Stops early after a step that broke a rule of worlds; a reward that did is returned in place of the total.
         """
         for now in range(clock[0], last_step):
-            action = constants.act(parameters, constants, state, scene)
+            action = life.act(agent, memory, scene, life.calls)
             reward, done = step(world_state, rules, action)
             if not abs(reward) <= LARGEST:
                 clock[0] = now + 1
@@ -90,7 +90,7 @@ def rollout_in(dynamics):
             total += reward
             interval = now // bin_steps
             rewards[interval] += np.float32(reward)
-            if not observed(parameters, constants, state, scene, reward, hits, interval, MOST_HITS):
+            if not observed(agent, memory, scene, life, reward, hits, interval, MOST_HITS):
                 clock[0] = now + 1
                 return total
             if done:
@@ -98,8 +98,8 @@ def rollout_in(dynamics):
                 if not keeps_rules(scene, hits.shape[1]):
                     clock[0], clock[1] = now + 1, 1
                     return total
-                if parameters.notices_resets:
-                    constants.begin(parameters, constants, state, scene)
+                if agent.notices_resets:
+                    life.begin(agent, memory, scene, life.calls)
         clock[0] = last_step
         return total
 
@@ -113,7 +113,7 @@ def recorded_in(dynamics):
     world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
 
     @kernel
-    def recorded(parameters: Parameters, constants: Constants, state: State, scene: Scene,
+    def recorded(agent: Record, memory: Memory, scene: Scene, life: Life,
                  world_state: world_type, rules: rules_type, clock: array("int64", 2), last_step: int,
                  first_step: int, every: int, paid: array("float64", 2), positions: array("float64", "frames", "axes"),
                  actions: array("int64", "frames"), rewards: array("float64", "frames"),
@@ -127,7 +127,7 @@ def recorded_in(dynamics):
         episodes = 0
         for now in range(clock[0], last_step):
             frame = (now - first_step) // every
-            actions[frame] = constants.act(parameters, constants, state, scene)
+            actions[frame] = life.act(agent, memory, scene, life.calls)
             reward, done = step(world_state, rules, actions[frame])
             if not abs(reward) <= LARGEST:
                 clock[0], paid[0] = now + 1, reward
@@ -137,7 +137,7 @@ def recorded_in(dynamics):
             paid[1] += reward
             for axis in range(positions.shape[1]):
                 positions[frame, axis] = scene.position[axis]
-            if not observed(parameters, constants, state, scene, reward, hits, frame, MOST_RECORDED):
+            if not observed(agent, memory, scene, life, reward, hits, frame, MOST_RECORDED):
                 clock[0] = now + 1
                 return episodes
             if done:
@@ -147,8 +147,8 @@ def recorded_in(dynamics):
                 if not keeps_rules(scene, hits.shape[1]):
                     clock[0], clock[1] = now + 1, 1
                     return episodes
-                if parameters.notices_resets:
-                    constants.begin(parameters, constants, state, scene)
+                if agent.notices_resets:
+                    life.begin(agent, memory, scene, life.calls)
         clock[0] = last_step
         return episodes
 

@@ -47,7 +47,7 @@ def draw_rates(results, of_paper):
 def draw_desires(run, axes):
     """Draw desires between nodes as arrows to the squares of their elements of interest."""
     start = run.world_state.scene.position / run.world.size
-    for desire, landing in zip(run.agent.desires, run.state.desires.target[:, :2]):
+    for desire, landing in zip(run.agent.desires, run.state.desires.target_at):
         if run.agent.comes_from_node(desire):
             colour = desire_colour(desire)
             low, high = (np.array([[-MARGIN], [1 + MARGIN]]) - start)[:, landing != 0] / landing[landing != 0]
@@ -74,14 +74,15 @@ def moment_of_desire(network, world, steps, seed=0):
 def _landed(run):
     """Where desires that one node has of another land, from the agent, in board widths: float64 (desires, 2)."""
     passed = [run.agent.comes_from_node(desire) and desire.source != desire.target for desire in run.agent.desires]
-    return run.state.desires.target[passed, :2]
+    return run.state.desires.target_at[passed]
 
 
 def landings(run):
     """Where the desires between the nodes of a run's agent land, and their valences, as a Markdown table."""
     rows = [[f"{desire.source} to {desire.target}, {' and '.join(desire.of)} creeps",
              f"({east:z.3f}, {south:z.3f})".replace("-", "−"), f"{valence:+g}".replace("-", "−")]
-            for desire, (east, south, valence) in zip(run.agent.desires, run.state.desires.target)
+            for desire, (east, south), valence in zip(run.agent.desires, run.state.desires.target_at,
+                                                      run.state.desires.target_valence)
             if run.agent.comes_from_node(desire)]
     return table(["Desire", "Lands at, from the agent, in board widths", "Valence"], rows)
 

@@ -8,7 +8,7 @@ import pytest
 
 from neorl import Agent, Contacts, Desire, Learner, Node, Scene, WaterWorld, forager
 from neorl.agents.beyond import FOVEATED_CELL
-from neorl.core.contacts import APPROACH, FEAR, VISITS
+from neorl.beyond.contacts import APPROACH, FEAR, VISITS
 from neorl.core.scene import CARDINAL, Actions
 from neorl.experiments.run import Run
 
@@ -21,7 +21,7 @@ def image(vector, exchanged, sign_x, sign_y):
 
 
 class Restated:
-    """The maps of a node as dictionaries, by the rules in the docstring of `neorl.core.contacts`."""
+    """The maps of a node as dictionaries, by the rules in the docstring of `neorl.beyond.contacts`."""
 
     def __init__(self, contacts, resolutions, fps):
         self.contacts, self.resolutions = contacts, resolutions
@@ -107,7 +107,7 @@ def test_the_maps_learn_as_the_rules_say(contacts):
     for _ in range(600):
         was_at = run.world_state.scene.position.copy()
         run.advance(1)
-        scene, event, now = run.world_state.scene, int(run.state.last_event[0]), seen()
+        scene, event, now = run.world_state.scene, int(run.state.last_event), seen()
         assert np.all(np.abs(scene.position - was_at) < 20)  # no episode has ended
         for thing in range(8):
             restated.learn(thing, before[thing], event, now[thing], scene.met[thing] != 0)

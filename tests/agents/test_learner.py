@@ -80,7 +80,7 @@ def test_a_learner_goes_on_from_a_copy_a_pickle_or_a_file_to_the_same_bit(name, 
         lives.append(live(each, TANK, there, 400))
     assert all(actions == lives[0] for actions in lives)
     for other in others:
-        assert_equal(learner.state, other.state)
+        assert_equal(learner, other)
 
 
 def test_a_run_goes_on_from_a_pickle_to_the_same_bit():
@@ -120,13 +120,13 @@ def test_learning_continues_from_transferred_values_as_at_their_source():
     source.advance(3_000)
     pupils = [newborn(agent, TANK, seed=8) for _ in range(2)]
     pupils[0][0].transfer(source)
-    pupils[1][0]._state.values.q[:] = source.state.values.q
-    pupils[1][0]._state.values.goal_range[:] = [[0, each.cells] for each in agent.maps for _ in range(each.cells)]
-    np.testing.assert_array_equal(pupils[0][0].state.values.goal_range, source.state.values.goal_range)
+    pupils[1][0]._memory.q[:] = source.memory.q
+    pupils[1][0]._memory.goal_range[:] = [[0, each.cells] for each in agent.maps for _ in range(each.cells)]
+    np.testing.assert_array_equal(pupils[0][0].memory.goal_range, source.memory.goal_range)
     lives = [live(learner, TANK, state, 1_000) for learner, state in pupils]
     assert lives[0] == lives[1]
-    np.testing.assert_array_equal(pupils[0][0].state.values.q, pupils[1][0].state.values.q)
-    assert not np.array_equal(pupils[0][0].state.values.q, source.state.values.q)
+    np.testing.assert_array_equal(pupils[0][0].memory.q, pupils[1][0].memory.q)
+    assert not np.array_equal(pupils[0][0].memory.q, source.memory.q)
 
 
 def test_values_state_and_parameters_are_views_that_cannot_be_written_to():
@@ -134,9 +134,9 @@ def test_values_state_and_parameters_are_views_that_cannot_be_written_to():
     view = learner.q()
     live(learner, TANK, state, 1_000)
     assert view.any()
-    for array in (view, *arrays(learner.state).values(), *arrays(learner.parameters).values()):
+    for array in (view, learner.state.maps, learner.state.rates, *arrays(learner.memory).values()):
         with pytest.raises(ValueError, match="read-only"):
-            array[...] = 1
+            array.fill(1)
     with pytest.raises(ValueError, match="index must be an integer from 0 to 0, but is 1"):
         learner.q(1)
 
@@ -158,10 +158,10 @@ def test_a_scene_that_does_not_fit_is_refused_and_changes_nothing(call, change, 
     learner = Learner(multimodal([3]), 2, ("green", "red"))
     learner.begin(FINE)
     learner.act()
-    before, scene = mapped(np.copy, learner.state), mapped(np.copy, learner._scene)
+    before, scene = learner.copy(), mapped(np.copy, learner._scene)
     with pytest.raises(ValueError, match=message):
         getattr(learner, call)(FINE._replace(**change))
-    assert_equal(before, learner.state)
+    assert_equal(before, learner)
     assert_equal(scene, learner._scene)
     learner.observe(FINE)
 
@@ -172,7 +172,7 @@ def test_kinds_go_by_name_or_by_number_and_what_is_absent_may_be_anywhere():
                           (["red", None], 9.0)]:
         learner = Learner(multimodal([3], object_state="object"), 2, ("green", "red"))
         learner.begin(FINE._replace(kinds=kinds, things=[(0.1, 0.2), (0.3, second)]))
-        cells.append(learner.state.tracks.cell.tolist())
+        cells.append(learner.memory.tracks.cell.tolist())
     assert cells[0] == cells[1] == cells[2] == cells[3] and cells[0][-1] == -1
 
 
@@ -188,10 +188,10 @@ def test_steps_out_of_order_are_refused(calls, message):
     given = {"begin": [FINE], "observe": [FINE], "act": []}
     for call in calls[:-1]:
         getattr(learner, call)(*given[call])
-    before = mapped(np.copy, learner.state)
+    before = learner.copy()
     with pytest.raises(RuntimeError, match=message):
         getattr(learner, calls[-1])(*given[calls[-1]])
-    assert_equal(before, learner.state)
+    assert_equal(before, learner)
 
 
 def watcher(rule):
@@ -210,7 +210,7 @@ def test_nothing_is_learned_from_what_vanishes_and_appears(rule):
                  scene(0.6)):
         learner.act()
         learner.observe(each)
-        assert (learner.state.tracks.cell[0] < 0) == (each.kinds == [None])
+        assert (learner.memory.tracks.cell[0] < 0) == (each.kinds == [None])
     assert not learner.q().any()
     learner.act()
     learner.observe(scene(0.9))
@@ -221,11 +221,11 @@ def test_a_thing_that_is_met_and_vanishes_was_met():
     learner, scene = watcher(plain_rule())
     learner.begin(scene(0.5))
     action = learner.act()
-    before = int(learner.state.tracks.cell[0])
+    before = int(learner.memory.tracks.cell[0])
     learner.observe(scene(0.5, None, met=1))
     contact = learner.agent.maps[0].encode([0.0, 0.0])
     assert learner.q()[before, action, contact] > 0 and np.count_nonzero(learner.q()) == 1
-    assert learner.state.tracks.cell[0] < 0
+    assert learner.memory.tracks.cell[0] < 0
 
 
 def test_a_reset_that_is_not_noticed_is_one_more_transition():
@@ -235,7 +235,7 @@ def test_a_reset_that_is_not_noticed_is_one_more_transition():
             learner.begin(Scene((begin, 0.1)))
             learner.act()
             learner.observe(Scene((end, 0.1)))
-        assert learner.q()[0, :, 1].any() == (resets == "unnoticed") and learner.state.tracks.cell[0] == 1
+        assert learner.q()[0, :, 1].any() == (resets == "unnoticed") and learner.memory.tracks.cell[0] == 1
 
 
 @pytest.mark.parametrize("agent", [place_cells([3]), *(
@@ -243,7 +243,7 @@ def test_a_reset_that_is_not_noticed_is_one_more_transition():
 def test_things_of_a_kind_in_the_same_cell_count_each_or_once(agent):
     def wanted(greens, shared_cell):
         learner = Learner(replace(agent, shared_cell=shared_cell), greens, ("green", "red"))
-        learner._state.values.q[:] = np.random.default_rng(0).random(len(learner.state.values.q))
+        learner._memory.q[:] = np.random.default_rng(0).random(len(learner.memory.q))
         learner.begin(Scene((0.1, 0.1), None, [(0.5, 0.5 - 0.01 * k) for k in range(greens)], ["green"] * greens))
         learner.act()
         return learner.output(agent.nodes[0].name)
@@ -266,8 +266,8 @@ def saved(tmp_path):
     lambda about, kept: about["world"].update(things=5),
     lambda about, kept: about["agent"].update({"is": "neorl:Brain"}),
     lambda about, kept: about["agent"]["policy"].update(choose={"kernel": "os:getcwd", "of": []}),
-    lambda about, kept: kept.pop("_state.values.q"), lambda about, kept: kept.update(more=np.zeros(3)),
-    lambda about, kept: kept["_state.values.q"].fill(1.0)])
+    lambda about, kept: kept.pop("_memory.q"), lambda about, kept: kept.update(more=np.zeros(3)),
+    lambda about, kept: kept["_memory.q"].fill(1.0)])
 def test_a_file_of_another_version_or_making_is_refused(saved, forge):
     rewrite(saved, forge)
     with pytest.raises(ValueError, match=str(saved)):

@@ -122,7 +122,7 @@ def check_that_kernels_of_one_modality_are_distinguished_from_those_of_another()
         run.advance(7)
         one, other = (nres_map.encode(nres_map.modality.coordinates(run.world_state.scene, WORLD.size))[0]
                       for nres_map in run.agent.maps)
-        assert run.state.tracks.cell.tolist() == [one, other]
+        assert run.memory.tracks.cell.tolist() == [one, other]
         assert (one % 5, one // 5) == (other // 2, other % 2)
 
 

@@ -33,7 +33,7 @@ async function answers([requests, last]) {
   return JSON.parse(JSON.stringify(all.slice(-last), (_, value) => ArrayBuffer.isView(value) ? [...value] : value));
 }
 """
-CONSTANTS = wasm.MODULES["plane"].constants
+CALLS = wasm.MODULES["plane"].life.calls
 TANK = WaterWorld(n_creeps=4)
 AGENT = network_d([4, 5])
 STEPS, SEED, K = 3_000, 5, 2
@@ -92,21 +92,21 @@ def test_a_frame_reports_the_state_of_the_run(ask):
     assert np.array([(creep["x"], creep["y"]) for creep in creeps]) == pytest.approx(scene.things / width)
     velocity = state.direction * state.speed[:, None] / width
     assert np.array([(creep["vx"], creep["vy"]) for creep in creeps]) == pytest.approx(velocity)
-    begin, end = run.parameters.maps.first_track[3:5]
-    assert frame["active"] == run.state.tracks.cell[begin:end].tolist()
+    nres = run.state.maps[3]
+    assert frame["active"] == run.memory.tracks.cell[nres.first_track : nres.end_track].tolist()
 
     for node in frame["nodes"]:
         output = run.output(node["name"])
         assert (node["x"], node["y"], node["valence"]) == pytest.approx((*output.desire, output.valence))
-    landings = run.state.desires.target[2:, :2] + scene.position / width
+    landings = run.state.desires.target_at[2:] + scene.position / width
     assert np.array([(each["x"], each["y"]) for each in frame["landings"]]) == pytest.approx(landings)
-    assert [each["valence"] for each in frame["landings"]] == run.state.desires.valence[2:].tolist()
+    assert [each["valence"] for each in frame["landings"]] == run.state.desires.total_valence[2:].tolist()
     assert [each["recurs"] for each in frame["landings"]] == [False, False, True]
 
     assert np.array(frame["seen"]["ways"]).reshape(-1, 2) == pytest.approx(as_vectors(run.q(3)[0].T))
     values = np.zeros((81, 4))
-    execute(survey, run._parameters, CONSTANTS, run._state, mapped(np.copy, run._state),
-            scene._replace(position=np.zeros(2)), 9, values)
+    execute(survey, run._record, run._record.copy(), mapped(np.copy, run._memory),
+            scene._replace(position=np.zeros(2)), CALLS, 9, values)
     assert np.array(frame["field"]).reshape(-1, 2) == pytest.approx(as_vectors(values), rel=1e-6)
     assert frame["heat"] == pytest.approx(values.max(axis=1), rel=1e-6)
 
@@ -206,8 +206,8 @@ def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
     for each in (frame, objects):
         m = maps.index(each["seen"]["name"])
         assert np.reshape(each["seen"]["ways"], (-1, 2)).tolist() == learned(run, m, goal)
-        begin, end = run.parameters.maps.first_track[m : m + 2]
-        assert each["active"] == run.state.tracks.cell[begin:end].tolist()
+        nres = run.state.maps[m]
+        assert each["active"] == run.memory.tracks.cell[nres.first_track : nres.end_track].tolist()
 
 
 @pytest.mark.parametrize("object_state", ["object", "self", "per object"])
@@ -224,7 +224,7 @@ def test_a_second_agent_obeys_commands_on_the_same_creeps(ask, object_state):
     for action in actions:
         run.advance(1)
         board = run.world_state
-        paid += execute(step_second, run._parameters, CONSTANTS, run._state, board.scene, board, TANK.rules, second,
+        paid += execute(step_second, run._record, run._memory, board.scene, CALLS, board, TANK.rules, second,
                         action)
         touched += np.count_nonzero(second.met)
     assert touched > 2 and frame["player"]["reward"] == paid

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from webassembly import Machine, compiled, copied, module_of, sizes_of, state_of
+from webassembly import Machine, compiled, copied, module_of, sizes_of, state_of, widened
 
 from neorl import Run, WaterWorld, files, place_cells
 from neorl.agents.compile import chosen
@@ -17,21 +17,23 @@ from neorl.browser import wasm
 from neorl.browser.explorer import OTHER_SPACES
 from neorl.browser.seeding import start_stream
 from neorl.browser.worlds import rules_of
+from neorl.core.building import WITHOUT_VALUES, laid_out
 from neorl.core.calls import execute
 from neorl.core.kernel import arrays, new_tuple
-from neorl.core.parameters import Parameters
-from neorl.core.state import State
+from neorl.core.record import Memory
 from neorl.core.stream import new_stream
 
 STEPS = 50_000
+OF_VALUES = ("values", "cells", "scratch", "tracks", "traces", "trace_weights", "passed", "left")  # sizes
 RUNS = [name for name in golden.RUNS if name != "softmax"]  # a choice of actions that is not compiled for the page
 
 
 def assert_equal_to(run, arguments):
-    for own, name in ((run.state, "state"), (run.world_state, "world_state")):
-        views = arrays(viewed(arguments[name]))
+    for own, views in ((run.memory, viewed(arguments["memory"])), (run.world_state, viewed(arguments["world_state"])),
+                       (widened(run._record, module_of(run)), arguments["agent"][1])):
+        copies = arrays(views)
         for field, array in arrays(own).items():
-            assert np.array_equal(views[field], array, equal_nan=True), (name, field)
+            assert np.array_equal(copies[field], array, equal_nan=True), field
 
 
 def viewed(values):
@@ -44,14 +46,14 @@ def viewed(values):
 def test_a_run_equals_a_native_run_to_the_last_bit(name):
     run = Run(golden.agent_of(name), golden.world_of(name), seed=1, run=4)
     assert_lives_alike(run)
-    assert name == "Brownian" or run.state.values.q.any()
+    assert name == "Brownian" or run.memory.q.any()
 
 
 @pytest.mark.parametrize("name", OTHER_SPACES)
 def test_a_run_in_another_space_equals_a_native_run_to_the_last_bit(name):
     run = Run(*OTHER_SPACES[name], seed=2, run=3)
     assert assert_lives_alike(run) != 0
-    assert run.state.values.q.any()
+    assert run.memory.q.any()
 
 
 def assert_lives_alike(run):
@@ -73,21 +75,20 @@ def test_a_run_begins_as_in_python_without_any_python(name):
     agent, world = BEGINNINGS[name]
     run = Run(agent, world, seed=2**32 - 1, run=17)
     machine, sizes = Machine(name=module_of(run)), sizes_of(run)
-    choices, _ = chosen(agent, run.world)
-    parameters = machine.put_tuple(new_tuple(Parameters, sizes, choices))
-    machine.call("derive", sizes, parameters=parameters, n_things=world.things)
+    record, draft = laid_out(chosen(agent, run.world))
+    agent, draft = machine.put(widened(record, module_of(run))), machine.put_tuple(draft)
+    machine.call("derive", sizes | {name: 0 for name in OF_VALUES}, agent=agent, memory=draft, n_things=world.things)
     world_state = machine.put_tuple(new_tuple(type(state_of(run)), sizes, {}))
-    state = machine.put_tuple(new_tuple(State, sizes, {}))
-    for words, stream in (([2**32 - 1, 0, 0, 0, 17], world_state.stream), ([2**32 - 1, 0, 0, 0, 17, 0], state.stream)):
+    memory = machine.put_tuple(new_tuple(Memory, sizes, {
+        name: getattr(viewed(draft), name) for name in WITHOUT_VALUES}))
+    of_policy = agent[0] + agent[1].dtype.fields["stream"][1], agent[1]["stream"]
+    for words, stream in (([2**32 - 1, 0, 0, 0, 17], world_state.stream), ([2**32 - 1, 0, 0, 0, 17, 0], of_policy)):
         machine.call("start_stream", sizes | {"words": len(words)}, words=machine.put(np.array(words, np.uint64)),
                      stream=stream)
     machine.call("reset", sizes, state=world_state, rules=machine.put_tuple(rules_of(world)))
-    machine.call("begin_values", sizes, parameters=parameters, state=state)
-    machine.call("begin", sizes, parameters=parameters, state=state, scene=world_state.scene)
-    assert_equal_to(run, {"state": state, "world_state": world_state})
-    derived = arrays(viewed(parameters))
-    for field, array in arrays(run.parameters).items():
-        assert np.array_equal(derived[field], array), field
+    machine.call("begin_values", sizes, agent=agent, memory=memory)
+    machine.call("begin", sizes, agent=agent, memory=memory, scene=world_state.scene)
+    assert_equal_to(run, {"agent": agent, "memory": memory, "world_state": world_state})
 
 
 @given(st.integers(0, 2**32 - 1), st.lists(st.integers(0, 2**32 - 1), min_size=1, max_size=3))

@@ -211,9 +211,9 @@ def test_what_cannot_be_read_has_no_identity():
 
 def test_source_that_changes_after_the_import_does_not_count():
     work = ("import importlib.machinery, neorl\nimportlib.machinery.SourceFileLoader.get_source = None\n"
-            "from neorl.core.identity import digest_of_source\n"
+            "from neorl.core.identity import ROOMS, digest_of_source\n"
             "from neorl.experiments.condition import source_digest\n"
-            "print(source_digest(), digest_of_source('core', 'worlds'))")
+            "print(source_digest(), digest_of_source(*ROOMS))")
     subprocess.run([sys.executable, "-c", work], check=True)
 
 

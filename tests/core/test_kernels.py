@@ -12,16 +12,17 @@ from numba import njit
 from numba.core import event
 
 from neorl import Agent, Arena, Learning, Node, Policy, Run, WaterWorld, network_d, place_cells, softmax
-from neorl.core import geometry, learning, life, maps, network, parameters, policy, state, stream
+from neorl.agents.compile import life_of
+from neorl.core import compiling, displacement, geometry, learning, life, maps, network, policy, stream
 from neorl.core.calls import execute
-from neorl.core.compile_cache import CompileCache
 from neorl.core.kernel import Kernel, inlined_kernel, kernel
 from neorl.core.modality import HEAD_DIRECTION_CELL, Axis, Modality
+from neorl.beyond import contacts
 from neorl.worlds import arena, probe, waterworld
 from neorl.worlds.rollout import rollout_in
 
 TANK, POOL = WaterWorld(), Arena()
-MODULES = (arena, geometry, learning, life, maps, network, parameters, policy, probe, state, stream, waterworld)
+MODULES = (arena, contacts, displacement, geometry, learning, life, maps, network, policy, probe, stream, waterworld)
 KERNELS = {f"{value.__module__}.{value.__name__}": value for module in MODULES
            for value in vars(module).values() if isinstance(value, Kernel)}
 MADE = {"rollout": rollout_in(TANK.dynamics), "softmax": softmax(0.5)}
@@ -34,11 +35,9 @@ def compiled():
         Run(place_cells([3], policy=chosen), TANK).advance(10)
     for world in (TANK, POOL):
         world.step(world.reset(0), 0)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(CompileCache, "load_overload", lambda *_: None)
-        for each in {**KERNELS, **MADE}.values():
-            if each.for_python.stats.cache_hits:
-                each.for_python.recompile()
+    for each in {**KERNELS, **MADE}.values():
+        if each.for_python.stats.cache_hits:
+            each.for_python.recompile()
 
 
 def test_the_kernels_are_found():
@@ -70,10 +69,11 @@ def test_a_kernel_that_allocates_does_not_compile():
 
 
 def test_the_goal_loop_compiles_to_vector_instructions(monkeypatch):
-    monkeypatch.setattr(CompileCache, "load_overload", lambda *_: None)
+    monkeypatch.setattr(compiling, "folder_of_compiled", lambda: None)
+    learns = kernel(learning.learn_all_goals.py_func)
     for signature in learning.learn_all_goals.dispatcher.signatures:
-        learning.learn_all_goals.for_python.compile(signature)
-    code = "".join(learning.learn_all_goals.for_python.inspect_llvm().values())
+        learns.for_python.compile(signature)
+    code = "".join(learns.for_python.inspect_llvm().values())
     assert "x float> " in code and "fmul <" in code
 
 
@@ -93,9 +93,7 @@ def test_agents_of_any_network_share_one_compilation():
     assert len(rollout.for_python.signatures) == 1
 
 
-def test_what_is_the_users_own_compiles_nothing_of_the_package(monkeypatch):
-    monkeypatch.setattr(CompileCache, "load_overload", lambda *_: None)
-
+def test_what_is_the_users_own_compiles_nothing_of_the_package():
     @kernel
     def first(value, stream):
         return 0
@@ -137,7 +135,8 @@ def test_an_array_that_kernels_would_misread_is_refused(dtype, order):
     run = Run(place_cells([3]), TANK)
     things = np.asarray(run.world_state.scene.things, dtype=dtype, order=order)
     with pytest.raises(ValueError, match="^things must be a contiguous array of float64 with 2 axes, but is "):
-        execute(life.begin, *run._life, run.world_state.scene._replace(things=things))
+        execute(life.begin, run._record, run._memory, run.world_state.scene._replace(things=things),
+                life_of(run.agent).calls)
 
 
 @pytest.mark.parametrize("name", KERNELS)
@@ -146,7 +145,7 @@ def test_a_kernel_called_from_python_refuses_instead_of_ending_the_interpreter(n
         KERNELS[name](1, 2, 3)
 
 
-@pytest.mark.parametrize("name", [name for name in KERNELS if "no_cpython_wrapper" in KERNELS[name].options])
+@pytest.mark.parametrize("name", [name for name in KERNELS if KERNELS[name].is_inlined])
 def test_a_kernel_that_is_inlined_cannot_even_be_executed(name):
     with pytest.raises(TypeError, match=f"{re.escape(name)} must be called by kernels, into which it is inlined"):
         execute(KERNELS[name], 1, 2, 3)

@@ -127,17 +127,17 @@ def test_the_cells_of_a_run_are_those_of_the_public_encoding(modality):
         run.advance(150)
         coordinates = modality.coordinates(run.world_state.scene, run.world.size)
         expected = [nres_map.encode(coordinates).tolist() for nres_map in run.agent.maps]
-        first = run.parameters.maps.first_track
-        assert [run.state.tracks.cell[first[m] : first[m + 1]].tolist() for m in range(2)] == expected
+        cells = run.memory.tracks.cell
+        assert [cells[nres.first_track : nres.end_track].tolist() for nres in run.state.maps] == expected
 
 
 def test_an_element_has_a_place_along_the_axes_of_what_is_followed_and_is_everywhere_along_others():
     """A place is desired in all five directions, so the values of five goals add up."""
     modality = Modality("X", PLACE_CELL.axes + (Axis("velocity", "direction", intervals=5),))
     run = Run(Agent((Node("X", modality, [3]),), (Desire(Place(0.5, 0.1), "X", 2.0),)), WaterWorld(), seed=0)
-    values = run._state.values.q
+    values = run._memory.q
     values[:] = np.random.default_rng(0).random(values.size)
-    before = int(run.state.tracks.cell[0])
+    before = int(run.memory.tracks.cell[0])
     run.advance(1)
     goals = 1 + 9 * np.arange(5)
     np.testing.assert_allclose(run.state.action_value, 2.0 * run.q()[before][:, goals].sum(axis=1), rtol=1e-5)

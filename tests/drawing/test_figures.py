@@ -91,7 +91,7 @@ def test_the_outermost_cells_of_a_map_reach_as_far_as_things_can_be():
 def test_desires_are_drawn_where_they_land_or_towards_it_if_that_is_far_away():
     run = Run(network_b([3, 5]), WaterWorld(), seed=0)
     start = run.world_state.scene.position / 250
-    run._state.desires.target[2:, :2] = [[0.1, -0.2], [9.0, 3.0]]
+    run._record["desires"]["target_at"][2:4] = [[0.1, -0.2], [9.0, 3.0]]
     axes = drawing.new_board()
     paper_c.draw_desires(run, axes)
     (near,) = axes.lines

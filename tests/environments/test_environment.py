@@ -54,7 +54,7 @@ def test_an_environment_is_the_world_of_a_run_to_the_bit(world):
     env.reset(seed=3, options={"run": 2})
     for step in range(2_000):
         paid = run.advance(1)
-        _, reward, terminated, truncated, info = env.step(run.state.last_event[0])
+        _, reward, terminated, truncated, info = env.step(run.state.last_event)
         assert (reward, terminated, truncated) == (paid, False, False)
         restarts += info["restarted"]
         if info["restarted"] or step % 20 == 0:

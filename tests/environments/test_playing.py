@@ -32,12 +32,12 @@ def test_an_agent_in_our_environments_repeats_a_run_to_the_bit(world, resets):
     agent = replace(agent, resets=resets)
     run = Run(agent, world, seed=4)
     learner = Learner(agent, world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
-    learner._state.stream[:] = new_stream(np.random.SeedSequence(4, spawn_key=(0,)).spawn(1)[0])
+    learner._record["stream"] = new_stream(np.random.SeedSequence(4, spawn_key=(0,)).spawn(1)[0])
     env = WorldEnv(world, continuing=False)
     played = play(learner, env, lambda observation, info: env.world_state.scene, steps=5_000, seed=4)
     paid = run.advance(5_000)
     assert played.learner is learner and played.rewards.sum() == paid and len(played.returns) > 0
-    assert_equal(learner.state, run.state)
+    assert_equal(learner, run)
 
 
 def test_an_agent_learns_to_walk_beside_a_cliff():

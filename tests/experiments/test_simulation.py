@@ -20,7 +20,7 @@ def test_an_agent_that_gets_a_second_modality_keeps_what_it_knows():
     run.advance(5_000)
     assert run.q(1).any() and run.q(4).any()
     run.change(place_cells([7]))
-    assert run.state.values.q.size == 4 * 7**4 and run.q().any()
+    assert run.memory.q.size == 4 * 7**4 and run.q().any()
 
 
 def test_the_output_of_a_node():
@@ -30,10 +30,10 @@ def test_the_output_of_a_node():
         run.advance(100)  # an object may be beyond the range of the map
     place, relative = run.output("PC"), run.output("OVC")
     np.testing.assert_allclose(run.state.action_value, place.q + 0.5 * relative.q, atol=1e-15)
-    greens, reds = (sum(run.agent.desires[e].source == colour and run.state.desires.valence[e] for e in range(2))
+    greens, reds = (sum(run.agent.desires[e].source == colour and run.state.desires.total_valence[e] for e in range(2))
                     for colour in ("green", "red"))
     assert place.valence == greens + reds == relative.valence
-    landing = run.state.desires.target[2:4, :2] / 2.0
+    landing = run.state.desires.target_at[2:4] / 2.0
     np.testing.assert_allclose(landing.sum(axis=0), place.desire)
     with pytest.raises(ValueError, match="name must be 'PC' or 'OVC', but is 'HD'"):
         run.output("HD")

@@ -41,7 +41,7 @@ def test_the_moment_is_the_first_seen_at_which_the_agent_is_well_inside_and_desi
     fits = []
     for _ in range(300, run.step + 1, paper_c.EVERY):
         at = other.world_state.scene.position / world.size
-        lands = np.hypot(*other.state.desires.target[2:, :2].T)  # after the desires for creeps
+        lands = np.hypot(*other.state.desires.target_at[2:].T)  # after the desires for creeps
         fits.append(np.abs(at - 0.5).max() < 0.2 and lands.max() > 0.001)
         other.advance(paper_c.EVERY)
     assert fits[-1] and not any(fits[:-1])

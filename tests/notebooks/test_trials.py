@@ -24,10 +24,10 @@ def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets()
     run.advance(2_000)
     resets = 0
     for _ in range(2_000):
-        before = run.state.tracks.cell.copy()
+        before = run.memory.tracks.cell.copy()
         reset = run.advance(1) > 50
         resets += reset
-        changes += (run.state.tracks.cell != before) & (not reset)
+        changes += (run.memory.tracks.cell != before) & (not reset)
     assert resets > 0
     np.testing.assert_allclose(found, 40 / changes)
 

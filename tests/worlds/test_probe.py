@@ -6,7 +6,7 @@ from same import assert_same
 
 from neorl import (Agent, Node, NresMap, Run, WaterWorld, multimodal, network_d, object_vector_cells, place_cells,
                    superpose)
-from neorl.agents.compile import whole_constants
+from neorl.agents.compile import whole_life
 from neorl.core.calls import execute
 from neorl.core.kernel import mapped
 from neorl.core.modality import OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
@@ -14,13 +14,13 @@ from neorl.worlds.probe import cell_seen_at, step_second, survey
 from neorl.worlds.waterworld import GREEN, RED
 
 TANK = WaterWorld(n_creeps=5)
-CONSTANTS = whole_constants(place_cells(), TANK)
+CALLS = whole_life(place_cells()).calls
 
 
 def surveyed(run, side):
     values = np.zeros((side * side, 4))
     there = run.world_state.scene._replace(position=np.zeros(2))
-    execute(survey, run._parameters, CONSTANTS, run._state, mapped(np.copy, run._state), there, side, values)
+    execute(survey, run._record, run._record.copy(), mapped(np.copy, run._memory), there, CALLS, side, values)
     return values
 
 
@@ -55,24 +55,24 @@ def test_a_place_is_seen_in_the_cell_that_is_as_it_lies_and_otherwise_as_the_age
     from_agent = np.array([x, y]) - scene.position / TANK.width
     expected = [*(NresMap(n, OBJECT_VECTOR_CELL).encode(OBJECT_VECTOR_CELL.tune(from_agent)) for n in (3, 5)),
                 NresMap(4, conjunctive).encode([x, y, np.hypot(*scene.velocity) / TANK.width])]
-    assert expected == [execute(cell_seen_at, run._parameters, CONSTANTS, run._state, scene, m, x, y) for m in range(3)]
+    assert expected == [execute(cell_seen_at, run._record.copy(), run._memory, scene, CALLS, m, x, y) for m in range(3)]
 
 
 def test_a_creep_that_somebody_else_takes_is_gone_and_nothing_is_learned_from_it():
     run = Run(object_vector_cells([5], object_state="object", object_beyond="outermost"), TANK, seed=4)
     run.advance(3_000)
     run.world_state.scene.kinds[:] = [GREEN, GREEN, RED, GREEN, RED]
-    before, board = mapped(np.copy, run.state), run.world_state
+    before, board = run.copy(), run.world_state
     second = board.scene._replace(position=board.scene.things[2].copy(), velocity=np.zeros(2))
-    paid = execute(step_second, run._parameters, CONSTANTS, run._state, board.scene, board, TANK.rules, second, 4)
+    paid = execute(step_second, run._record, run._memory, board.scene, CALLS, board, TANK.rules, second, 4)
     taken = second.met != 0
     assert second.met[2] == 1 + RED and paid == sum(second.met == 1 + GREEN) - sum(second.met == 1 + RED)
-    assert np.array_equal(run.state.values.q, before.values.q)
+    assert np.array_equal(run.memory.q, before.memory.q)
     coordinates = run.agent.maps[0].modality.coordinates(board.scene, TANK.size)
-    assert np.array_equal(run.state.tracks.cell[taken], run.agent.maps[0].encode(coordinates)[taken])
-    assert not run.state.tracks.events[taken].any() and not run.state.tracks.remembered_count[taken].any()
-    assert np.array_equal(run.state.tracks.cell[~taken], before.tracks.cell[~taken])
-    assert np.array_equal(run.state.tracks.events[~taken], before.tracks.events[~taken])
+    assert np.array_equal(run.memory.tracks.cell[taken], run.agent.maps[0].encode(coordinates)[taken])
+    assert not run.memory.events[taken].any() and not run.memory.tracks.remembered[taken].any()
+    assert np.array_equal(run.memory.tracks.cell[~taken], before.memory.tracks.cell[~taken])
+    assert np.array_equal(run.memory.events[~taken], before.memory.events[~taken])
 
 
 @pytest.mark.parametrize("resets", ["noticed", "unnoticed"])
@@ -85,9 +85,9 @@ def test_when_somebody_else_takes_the_last_green_creep_the_tank_starts_afresh(re
     paid = 0.0
     for _ in range(50):  # until the fresh creep is red, which ends the episode
         second = board.scene._replace(position=board.scene.things[0].copy(), velocity=np.zeros(2))
-        paid = execute(step_second, run._parameters, CONSTANTS, run._state, board.scene, board, run.world.rules,
+        paid = execute(step_second, run._record, run._memory, board.scene, CALLS, board, run.world.rules,
                        second, 4)
         if np.array_equal(board.scene.position, [125.0, 125.0]):
             break
     assert np.array_equal(board.scene.position, [125.0, 125.0]) and board.scene.kinds[0] == GREEN and paid == 1
-    assert run.state.tracks.events.any() == (resets == "unnoticed")
+    assert run.memory.events.any() == (resets == "unnoticed")

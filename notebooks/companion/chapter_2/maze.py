@@ -27,16 +27,17 @@ from companion.shared.grid import MOVES
 from companion.shared.tabular import Rates, exploring_action, greedy_action, learn_q
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Node
-from neorl.agents.compile import compiled, constants_of
+from neorl.agents.compile import compiled, life_of
 from neorl.agents.learner import Surroundings
 from neorl.agents.rules import Learning, Policy
+from neorl.core.building import with_values
+from neorl.core.called import Life
 from neorl.core.calls import execute
-from neorl.core.constants import Constants
 from neorl.core.kernel import array, kernel, new_tuple
 from neorl.core.modality import Axis, Modality
-from neorl.core.parameters import Parameters
+from neorl.core.record import Memory
+from neorl.core.record import Record as AgentRecord
 from neorl.core.scene import ABSENT, Actions, Scene
-from neorl.core.state import State, new_state
 from neorl.core.stream import new_stream
 from neorl.statistics import Estimate, difference, estimate
 
@@ -193,12 +194,12 @@ def live(animal, maze, first_meal, stream):
     """For each day in turn, an animal's errors and its values of actions for reaching the goal box, (states, 4)."""
     if animal.learner == "neoRL":
         agent = neorl_animal(animal, maze)
-        parameters = compiled(agent, KNOWN)
-        state = new_state(parameters, stream, KNOWN.things)
+        record, memory = compiled(agent, KNOWN)
+        record["stream"], memory = stream, with_values(record, memory)
         scene = new_tuple(Scene, {"axes": 1, "things": 1}, {"things": np.array([[maze.goal + 0.5]]),
                                                             "kinds": np.array([ABSENT])})
-        day = live_a_day, parameters, constants_of(agent, KNOWN), state, scene
-        worth = state.values.q.reshape(maze.states, 4, maze.states)[:, :, maze.goal]
+        day = live_a_day, record, memory, scene, life_of(agent)
+        worth = memory.q.reshape(maze.states, 4, maze.states)[:, :, maze.goal]
     else:
         rates = Rates(animal.learning_rate, animal.discount, animal.exploration)
         rival = new_tuple(Rival, {"states": maze.states}, {})
@@ -257,17 +258,17 @@ def findings(groups, first_meal):
 
 
 @kernel
-def live_a_day(parameters: Parameters, constants: Constants, state: State, scene: Scene, next_state, goal, fed):
+def live_a_day(agent: AgentRecord, memory: Memory, scene: Scene, life: Life, next_state, goal, fed):
     """Run an agent through the maze once, and return its errors. fed: whether there is food."""
     place, errors = 0, 0
     scene.position[0] = 0.5
-    constants.begin(parameters, constants, state, scene)
+    life.begin(agent, memory, scene, life.calls)
     for _ in range(LONGEST_TRIAL):
         place_tm1 = place
-        place = next_state[place_tm1, constants.act(parameters, constants, state, scene)]
+        place = next_state[place_tm1, life.act(agent, memory, scene, life.calls)]
         errors += place > goal and place != place_tm1
         scene.position[0] = place + 0.5
-        constants.observe(parameters, constants, state, scene)
+        life.observe(agent, memory, scene, life.calls)
         if place == goal:
             break
     if place == goal and fed:

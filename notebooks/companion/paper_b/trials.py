@@ -53,9 +53,9 @@ def mean_values(agent, world, steps, runs, seed=0):
     def of_nodes(k):
         run = Run(agent, world, seed, k)
         run.advance(steps)
-        nodes, weight, means = run.parameters.nodes, run.parameters.maps.weight, best_values(run)
+        nodes, weight, means = run.state.nodes, run.state.maps.weight, best_values(run)
         return [np.dot(weight[begin:end], means[begin:end])
-                for begin, end in zip(nodes.first_map[:-1], nodes.first_map[1:])]
+                for begin, end in zip(nodes.first_map, nodes.end_map)]
 
     return dict(zip((node.name for node in agent.nodes), of_runs(of_nodes, agent, world, runs).T))
 
@@ -68,7 +68,7 @@ def best_values(run):
     def best(m, each):
         if each.modality.follows == "position":
             return run.q(m).max(axis=1)[~np.eye(each.cells, dtype=bool)]
-        return np.delete(values_for_objects(run, m).max(axis=1), run.parameters.maps.contact[m])
+        return np.delete(values_for_objects(run, m).max(axis=1), run.state.maps.contact[m])
 
     return np.array([best(m, each).mean() if each.cells > 1 else 0.0 for m, each in enumerate(run.agent.maps)])
 
@@ -79,7 +79,7 @@ def values_for_objects(run, index):
     The object's cell is the goal if the state is the self; otherwise it is the state, and the goal is the contact.
     """
     q = run.q(index)
-    return q[0].T if len(q) == 1 else q[:, :, run.parameters.maps.contact[index]]
+    return q[0].T if len(q) == 1 else q[:, :, run.state.maps.contact[index]]
 
 
 def learn(agents, world, steps, runs, seed=0):

@@ -74,10 +74,10 @@ def moved(run, steps):
 
     The agent has to desire every creep in each map, each to have a cell for it, and none the self as its state.
     """
-    maps, state, learning = run.parameters.maps, run.state, run.agent.learning
-    tracks, actions = state.tracks, run.parameters.push.shape[0]
-    touched = np.zeros(-(-state.values.q.nbytes // LINE), bool)
-    map_of = np.repeat(np.arange(len(maps.cells)), np.diff(maps.first_track))
+    maps, memory, learning = run.state.maps, run.memory, run.agent.learning
+    tracks, actions = memory.tracks, run.state.push.shape[0]
+    touched = np.zeros(-(-memory.q.nbytes // LINE), bool)
+    map_of = np.repeat(np.arange(len(maps.cells)), maps.end_track - maps.first_track)
     standing = len(maps.cells) * run.world.things * actions * 4 + len(tracks.cell) * (8 + 2 * 8)
     ordered = scattered = changes = remembered = most = 0
     near = [np.empty(0, int)] * len(tracks.cell)  # lines that the previous change touched
@@ -86,22 +86,22 @@ def moved(run, steps):
         run.advance(1)
         for track in np.flatnonzero(tracks.cell != before):
             m, left, entered = map_of[track], before[track], tracks.cell[track]
-            cells, first, count = maps.cells[m], maps.first_value[m], tracks.remembered_count[track]
+            cells, first, count = maps.cells[m], maps.first_value[m], tracks.remembered[track]
             ordered += count * 4 * 2 * (4 * actions + 1)  # fades
             if learning.memory > 0 and count == 0:  # the board was reset
                 continue
             changes += 1
             remembered += count
             if learning.bootstrap:
-                begin, end = state.values.goal_range[maps.first_cell[m] + left]
-                written = actions if learning.absent_decay > 0 else np.count_nonzero(state.rates)
+                begin, end = memory.goal_range[maps.first_cell[m] + left]
+                written = actions if learning.absent_decay > 0 else np.count_nonzero(run.state.rates)
                 ordered += 4 * (end - begin) * (actions + 2 * written)
                 for row in np.add.outer([left, entered], np.zeros(actions, int)).ravel() * actions * cells + first + (
                         np.tile(np.arange(actions), 2) * cells):
                     touched[4 * (row + begin) // LINE : 4 * (row + end - 1) // LINE + 1] = True
             if learning.memory > 0:
                 ordered += count * (8 + 2 * 16)
-                known = tracks.remembered[maps.first_trace[m] + (track - maps.first_track[m]) * cells:][:count]
+                known = memory.remembered[maps.first_trace[m] + (track - maps.first_track[m]) * cells:][:count]
                 rows, apart = ((known * actions * cells + entered, cells) if learning.bootstrap else
                                ((entered * cells + known) * actions, 1))
                 values = np.add.outer(first + rows, np.arange(actions) * apart)
@@ -110,7 +110,7 @@ def moved(run, steps):
                 is_near = np.isin(lines, near[track]) | (4 * actions * cells**2 <= NEAREST_CACHE)
                 scattered += 2 * LINE * np.count_nonzero(~is_near)
                 ordered += 2 * 4 * values_of_line[is_near].sum()
-                near[track], most = lines, max(most, tracks.remembered_count.sum())
+                near[track], most = lines, max(most, tracks.remembered.sum())
     working_set = LINE * int(touched.sum()) + int(most) * (4 * (4 * actions + 1) + 8 + 16)
     return Moved(standing, ordered / steps, scattered / steps, working_set, changes / steps,
                  remembered / max(1, changes))

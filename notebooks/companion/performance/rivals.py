@@ -43,10 +43,10 @@ def record(resolution, steps, warm_up, seed=0):
     world = WaterWorld()
     run = Run(place_cells([resolution], learning=PLAIN), world, seed)
     run.advance(warm_up)
-    (nres_map,), tracks, scene = run.agent.maps, run.state.tracks, run.world_state.scene
+    (nres_map,), tracks, scene = run.agent.maps, run.memory.tracks, run.world_state.scene
     found = Stretch(np.empty(steps + 1, int), np.zeros(steps, bool), np.zeros((steps, 4), np.float32),
                     np.empty((steps, world.things), int), np.empty((steps, world.things)), run.q().copy(),
-                    run.state.values.goal_range.copy())
+                    run.memory.goal_range.copy())
     for step in range(steps):
         found.cells[step] = left = tracks.cell[0]
         before = run.q()[left].copy()

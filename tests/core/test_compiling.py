@@ -1,0 +1,136 @@
+"""How kernels are compiled: linked or each by itself, cached where they are the package's, and never as they were."""
+
+import copy
+import logging
+import os
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from numba.core.compiler import Flags
+
+from neorl import Policy, Run, WaterWorld, files, kernel, place_cells, softmax
+from neorl.core import compiling, linking
+from neorl.core.calls import execute
+from neorl.core.kernel import announcing, jit_is_off
+from neorl.core.linking import LinkedFlags
+from neorl.worlds import waterworld
+
+pytestmark = pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
+LOADED = """
+import sys
+import numpy as np
+from neorl import WaterWorld, softmax
+from neorl.core.calls import execute
+
+value, stream = np.array([0.0, 1.0]), np.arange(4, dtype=np.uint64)
+made = [softmax(float(each)) for each in sys.argv[1:]]
+chosen = [sum(execute(each, value, stream) for _ in range(1_000)) for each in made]
+assert sorted(chosen) == chosen[::-1], chosen  # the higher the temperature, the rarer the better action
+WaterWorld().reset(0)
+print(sum(sum(each.for_python.stats.cache_hits.values()) for each in (*made, WaterWorld.dynamics.reset)))
+"""
+
+
+@pytest.fixture
+def run_program(tmp_path, monkeypatch):
+    """Start programs with a cache of their own, and return what they print."""
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+
+    def start(source, *arguments, **environment):
+        return subprocess.run([sys.executable, "-c", source, *map(str, arguments)], check=True, capture_output=True,
+                              text=True, env=os.environ | environment).stdout.strip()
+
+    return start
+
+
+def test_what_one_process_has_compiled_another_takes_from_disk_under_names_of_its_own(run_program):
+    """The second process compiles one kernel and finds the other on disk, with the same number."""
+    assert [run_program(LOADED, *temperatures) for temperatures in ((0.5,), (0.1, 0.5), (0.1, 0.5))] == ["0", "2", "3"]
+
+
+def test_processes_that_start_at_once_do_not_disturb_each_other(run_program):
+    processes = [subprocess.Popen([sys.executable, "-c", LOADED, "0.5"], stdout=subprocess.PIPE) for _ in range(2)]
+    assert [process.communicate()[0] != b"" for process in processes] == [True] * 2
+    assert run_program(LOADED, 0.5) == "2"
+
+
+def test_another_numba_or_another_setting_of_it_has_a_folder_of_its_own(monkeypatch):
+    folders = {compiling.folder_of_compiled()}
+    for name, value in [("numba.__version__", "0.0"), ("numba.config.SLP_VECTORIZE", 7)]:
+        monkeypatch.setattr(name, value)
+        folders.add(compiling.folder_of_compiled())
+    assert len(folders) == 3
+
+
+def test_a_folder_that_cannot_be_written_to_costs_time_alone(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "file"))
+    with pytest.warns(RuntimeWarning, match="takes no compiled kernels"):
+        assert execute(softmax(0.25), np.array([0.0, 9.0]), np.arange(4, dtype=np.uint64)) in (0, 1)
+
+
+def test_the_users_kernels_and_what_has_them_within_are_not_kept(tmp_path, monkeypatch):
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+
+    @kernel
+    def first(value, stream):
+        return 0
+
+    execute(first, np.zeros(2), np.zeros(4, np.uint64))
+    Run(place_cells([2], policy=Policy(choose=first)), WaterWorld()).advance(1)
+    assert not [path for path in files.cache_folder().rglob("*.nbc") if "first" in path.name or "chosen" in path.name]
+
+
+UNLINKED = """
+from neorl import Run, WaterWorld, multimodal
+from neorl.core import compiling
+run = Run(multimodal([3, 4], object_state="self"), WaterWorld(), seed=1)
+print(run.advance(3_000), run.memory.q.sum(dtype=float), compiling.links())
+"""
+
+
+def test_without_linking_a_run_is_the_same_to_the_last_bit(run_program):
+    linked, unlinked = (run_program(UNLINKED, **environment) for environment in ({}, {compiling.UNLINKED: "1"}))
+    assert linked.removesuffix("True") == unlinked.removesuffix("False") != unlinked
+
+
+@pytest.mark.parametrize("name, value, said", [
+    ("OVERRIDDEN", ["_gone"], "has no attribute '_gone'"), ("TAKEN", ["library"], "its compiler takes typingctx, ")])
+def test_a_numba_that_cannot_link_is_asked_first_and_one_line_is_logged(monkeypatch, caplog, name, value, said):
+    monkeypatch.setattr(linking, name, value)
+    with caplog.at_level(logging.WARNING, "neorl"):
+        assert compiling.links.__wrapped__() is False
+    (line,) = caplog.messages
+    assert "cannot link kernels, so a first step takes twice as long" in line and said in line
+
+
+@pytest.mark.parametrize("protocol", range(2, pickle.HIGHEST_PROTOCOL + 1))
+def test_a_kernel_of_a_module_is_pickled_by_its_name(protocol):
+    assert pickle.loads(pickle.dumps(waterworld.step, protocol)) is waterworld.step is copy.deepcopy(waterworld.step)
+
+
+def test_compilations_do_not_share_the_flags_that_numba_changes_meanwhile():
+    flags = LinkedFlags(Flags())
+    changed = flags.copy()
+    assert changed == flags and hash(changed) == hash(flags)
+    changed.force_pyobject = True
+    assert changed != flags and not flags.force_pyobject
+
+
+def test_compilation_is_announced_once():
+    told = []
+
+    @kernel
+    def halved(x):
+        return x / 2
+
+    @kernel
+    def quartered(x):
+        return halved(halved(x))
+
+    with announcing(told.append):
+        assert execute(quartered, 3.0) == execute(quartered, 3.0) == 0.75
+    assert told == [True, False]
