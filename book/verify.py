@@ -16,7 +16,7 @@ import numpy as np
 
 from neorl.experiments import store
 from neorl.experiments.result import condition_of
-from neorl.experiments.run import new_bins
+from neorl.experiments.bins import new_bins
 from neorl.experiments.simulation import live
 from neorl.files import cache_folder, read_arrays
 

@@ -39,7 +39,7 @@ from neorl.agents.papers import (brownian, multimodal, network_a, network_b, net
 from neorl.agents.rules import CALIBRATED, GREEDY, TO_THE_LETTER, Contacts, Learning, Policy
 from neorl.core import modality
 from neorl.core.calls import execute
-from neorl.core.geometry import heading, turn
+from neorl.core.direction import heading, turn
 from neorl.core.horde import learn, superpose
 from neorl.core.kernel import array, kernel, kernel_maker
 from neorl.core.maps import NresMap

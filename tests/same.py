@@ -8,7 +8,7 @@ from neorl import Learner, Result, Run
 from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
 from neorl.experiments import simulation
-from neorl.experiments.run import new_bins
+from neorl.experiments.bins import new_bins
 
 
 def numbers(values):

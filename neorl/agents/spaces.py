@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.rules import Learning
-from neorl.core.geometry import turn
+from neorl.core.direction import turn
 from neorl.core.kernel import kernel
 from neorl.core.modality import PLACE_CELL, Axis, Modality
 

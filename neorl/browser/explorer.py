@@ -31,7 +31,7 @@ from neorl.core.kernel import is_tuple
 from neorl.core.modality import MODALITIES, PLACE_CELL, axis_parameters
 from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
-from neorl.experiments.run import bin_steps
+from neorl.experiments.bins import bin_steps
 from neorl.experiments.simulation import label
 from neorl.extras import require
 from neorl.statistics import tolerance_band

@@ -12,14 +12,15 @@ In `notebooks/companion/one_file.py`, this is `learn_motion` in section 5.
 
 import numpy as np
 
+from neorl.core.called import Own
 from neorl.core.choices import MapState
 from neorl.core.geometry import cell_within, component
 from neorl.core.kernel import inlined_kernel, kernel
-from neorl.core.learning import (SMALLEST, UNBOUNDED, UNIT, ZERO, enter, forget_all, higher, join, learn_remembered,
-                                 order_of, rate_events, rule_of, stepped, sunk, trace_of, values_of, widen)
-from neorl.core.called import Own
+from neorl.core.learning import (SMALLEST, UNBOUNDED, UNIT, ZERO, enter, higher, order_of, rate_events, rule_of,
+                                 stepped, sunk, values_of, widen)
 from neorl.core.record import Memory, Record
 from neorl.core.scene import ABSENT, Scene
+from neorl.core.trace import forget_all, join, learn_remembered, trace_of
 
 
 @kernel

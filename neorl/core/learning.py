@@ -1,21 +1,17 @@
-"""How the values of a map learn from tracks that change cells (thesis 4.1.3 and 4.4).
+"""How the values of a map learn from a change of cell (thesis 4.1.3 and 4.4).
 
 All goals learn off-policy at every update, whether they are desired or not. A goal pays 1 when its cell is entered;
 there is no other reward.
 
-1. A track's change of cell drives the update (*inference inversion*, eq. 4.7 and 4.8): for each event that occurred in
-   the cell just left, the values of all goals move towards γ max q of the cell entered, at the rate ψ(a) α. With an
-   update after every step, and the action taken as its only event, this is *temporal difference* (eq. 4.6).
-2. The cells that a track remembers, by a leaky integrator, learn that they led to the cell entered. A cell joins the
-   memory when it is left: each event adds its rate to a weight of its own, one for having occurred there and one, by
-   ψ(0), for having been absent. At every change of cell the weights fade, and the worth of a goal to them by γ. The
-   value of each remembered event for the cell entered moves towards that worth, at its weight or at 1, whichever is
-   less. A cell is forgotten when its strength, which grows by 1 each time it is left, has faded below 1e-4.
-3. The value of an event that did not occur sinks, towards zero or away from the target.
+1. A change of cell drives the update (*inference inversion*, eq. 4.7 and 4.8): for each event that occurred in the cell
+   just left, the values of all goals move towards γ max q of the cell entered, at the rate ψ(a) α. With an update after
+   every step, and the action taken as its only event, this is *temporal difference* (eq. 4.6).
+2. The value of an event that did not occur sinks, towards zero or away from the target.
 
-Section 5 of `notebooks/companion/one_file.py` says the same in plain Python; docstrings name its functions, as in “one
-file: `updated`”. `neorl.core.displacement` is for maps whose state is the self. A value below 1e-30 counts as zero,
-because arithmetic on subnormal numbers is slow.
+`neorl.core.trace` is for the cells left before, `neorl.core.displacement` for maps whose state is the self. A value
+below 1e-30 counts as zero, because arithmetic on subnormal numbers is slow.
+
+In `notebooks/companion/one_file.py`, this is section 5; docstrings name its functions, as in “one file: `updated`”.
 """
 
 from typing import NamedTuple
@@ -23,13 +19,12 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.core.choices import Credit
-from neorl.core.geometry import OF_CREDIT
 from neorl.core.kernel import array, inlined_kernel, kernel
+from neorl.core.record import OF_CREDIT
 
 ZERO, UNIT, SMALLEST = np.float32(0.0), np.float32(1.0), np.float32(1e-30)
 UNBOUNDED = np.float32(np.inf)
 INACTIVE = np.float32(0.01)
-FORGOTTEN = np.float32(1e-4)  # the strength below which a cell is no longer remembered
 
 
 class MapValues(NamedTuple):
@@ -62,43 +57,6 @@ class Rule(NamedTuple):
     terminal: bool
     absent_rate: np.float32  # −α ψ(0), the rate at which the values of an event that did not occur sink
     away: bool  # away from the target instead of towards zero
-
-
-class Trace(NamedTuple):
-    """The memory of one track.
-
-    The list `cells` is unordered. Weights and worths have a number for each place in it and each event, first all those
-    of events that occurred, then all those of absent events.
-    """
-
-    cells: array("int64", "cells")  # a list of the cells remembered
-    places: array("int64", "cells")  # the place in the list of each cell of the map, plus one; 0 if it is not in it
-    strength: array("float32", "cells")  # by place in the list
-    weight: array("float32", "trace_weights")
-    goal_worth: array("float32", "trace_weights")  # weight times the worth of a goal
-    rates: array("float32", "actions")  # of the events in the cell that the track leaves
-
-
-@inlined_kernel
-def learn_transition(agent, memory, own, nres, point, cell_t):
-    """Learn from a track's change of cell s⁻ → s⁺ (one file: `learn_transition`)."""
-    learning, rates, t = agent.learning, agent.rates, nres.first_track + point
-    track = memory.tracks[t]
-    cell_tm1 = track.cell
-    rule, values, order = rule_of(learning), values_of(agent, memory, nres), order_of(agent, nres)
-    trace = trace_of(agent, memory, nres, point)
-    rate_events(agent, memory, own, t)
-    if learning.bootstrap:
-        learn_all_goals(values, rule, cell_tm1, cell_t, rates)
-    if learning.memory_retained > ZERO:
-        track.remembered = fade(trace, track.remembered, learning.memory_retained, learning.discount)
-        if learning.bootstrap:  # the cell has already learned by bootstrapping, so it joins afterwards
-            learn_remembered(values, order, rule, trace, track.remembered, cell_t)
-        track.remembered = join(trace, track.remembered, cell_tm1, rates, rule.absent_rate, UNIT, UNIT)
-        if not learning.bootstrap:
-            learn_remembered(values, order, rule, trace, track.remembered, cell_t)
-    elif not learning.bootstrap:
-        learn_one_goal(values, order, rule, cell_tm1, cell_t, rates)
 
 
 @inlined_kernel
@@ -146,27 +104,6 @@ def order_of(agent, nres):
     if agent.learning.bootstrap and goals > 1:
         return Order(actions * goals, np.uint64(1), goals)
     return Order(actions, actions * goals, np.uint64(1))
-
-
-@inlined_kernel
-def trace_of(agent, memory, nres, point):
-    """The `Trace` of a track."""
-    actions = agent.rates.shape[0]
-    begin = nres.first_trace + point * nres.cells
-    end = begin + nres.cells
-    first, last = 2 * actions * begin, 2 * actions * end
-    return Trace(memory.remembered[begin:end], memory.remembered_at[begin:end], memory.strength[begin:end],
-                 memory.trace_weight[first:last], memory.trace_worth[first:last], agent.rates)
-
-
-@inlined_kernel
-def start_track(agent, memory, nres, point, cell):
-    """Start the track of a point in a cell, without a memory."""
-    t = nres.first_track + point
-    enter(memory, t, cell)
-    if memory.tracks[t].remembered > 0:
-        forget_all(trace_of(agent, memory, nres, point), memory.tracks[t].remembered)
-        memory.tracks[t].remembered = 0
 
 
 @inlined_kernel
@@ -268,107 +205,3 @@ def sunk(value, rate, target, away, highest):
     else:
         value -= rate * value
     return value if value > SMALLEST else ZERO
-
-
-@kernel
-def fade(trace, count, retained, discount):
-    """Weights × m / (1 + m), and worths × γ besides; return how many cells are still remembered.
-
-    retained: m / (1 + m), for a mean of m earlier cells.
-    """
-    for i in range(count):
-        trace.strength[i] *= retained
-    size, half = count * trace.rates.shape[0], trace.cells.shape[0] * trace.rates.shape[0]
-    for begin in range(0, 2 * half, half):
-        weights, worths = trace.weight[begin : begin + size], trace.goal_worth[begin : begin + size]
-        for i in range(size):
-            weights[i] *= retained
-            reached = worths[i] * retained * discount
-            worths[i] = reached if reached > SMALLEST else ZERO
-    i = 0
-    while i < count:
-        if trace.strength[i] < FORGOTTEN:
-            count -= 1
-            forget(trace, i, count)
-        else:
-            i += 1
-    return count
-
-
-@kernel
-def forget(trace, i, last):
-    """Forget a cell: replace it by the last of the list."""
-    cells, actions = trace.cells, trace.rates.shape[0]
-    trace.places[cells[last]] = i + 1
-    trace.places[cells[i]] = 0
-    cells[i], trace.strength[i] = cells[last], trace.strength[last]
-    for begin in range(0, 2 * cells.shape[0] * actions, cells.shape[0] * actions):
-        for event in range(actions):
-            into, of = np.uint64(begin + i * actions + event), np.uint64(begin + last * actions + event)
-            trace.weight[into], trace.goal_worth[into] = trace.weight[of], trace.goal_worth[of]
-
-
-@kernel
-def forget_all(trace, count):
-    """Remove all cells from the list."""
-    for i in range(count):
-        trace.places[trace.cells[i]] = 0
-
-
-@kernel
-def join(trace, count, cell, rates, absent_rate, strength, worth):
-    """Σ α_a += α_a and Σ α_a γᵏ += α_a for a cell just left; return how many are remembered (one file: `join`)."""
-    actions, half = trace.rates.shape[0], trace.cells.shape[0] * trace.rates.shape[0]
-    i = trace.places[cell] - 1
-    if i < 0:
-        i = count
-        count += 1
-        trace.cells[i], trace.places[cell], trace.strength[i] = cell, count, ZERO
-        for begin in range(i * actions, i * actions + 2 * half, half):
-            for at in range(begin, begin + actions):
-                trace.weight[at] = trace.goal_worth[at] = ZERO
-    trace.strength[i] += strength
-    for event in range(actions):
-        absent = rates[event] == ZERO
-        at = i * actions + event + absent * half
-        rate = absent_rate if absent else rates[event]
-        trace.weight[at] += strength * rate
-        trace.goal_worth[at] += worth * rate
-    return count
-
-
-@kernel
-def learn_remembered(values, order, rule, trace, count, goal):
-    """Q_i(s, a) ← Q_i(s, a) + min(Σ α_a, 1) (Σ α_a γᵏ / Σ α_a − Q_i(s, a)) in all cells s remembered, for i = s⁺.
-
-    The sums are over the times that s was left, k changes of cell ago (one file: `remembered`). All values are read
-    before any is used: those of a fine map are not in the cache, and the processor can then wait for many at a time.
-    """
-    cells, actions, read = trace.cells, trace.rates.shape[0], values.scratch
-    for i in range(count):
-        widen(values.goal_range, np.uint64(cells[i]), goal)
-    for i in range(count):
-        place = place_of(values.first, order, cells[i], goal)
-        for event in range(actions):
-            read[np.uint64(i * actions + event)] = values.q[place + np.uint64(event) * order.action]
-    size, half = count * actions, cells.shape[0] * actions
-    move(read, size, trace.weight[:size], trace.goal_worth[:size], trace.weight[half : half + size],
-         trace.goal_worth[half : half + size], rule.away)
-    for i in range(count):
-        place = place_of(values.first, order, cells[i], goal)
-        for event in range(actions):
-            values.q[place + np.uint64(event) * order.action] = read[np.uint64(i * actions + event)]
-
-
-@kernel
-def move(values, count, happened, reached, absent, missed, away):
-    """Move values towards the worth of the goal for events that occurred, and let those of absent events sink."""
-    for i in range(count):
-        value = values[i]
-        weight = happened[i] if happened[i] > ZERO else UNIT
-        raised = value + (weight if weight < UNIT else UNIT) * (reached[i] / weight - value)
-        value = raised if happened[i] > ZERO else value
-        weight = absent[i] if absent[i] > ZERO else UNIT
-        lowered = sunk(value, weight if weight < UNIT else UNIT, missed[i] / weight, away, UNIT)
-        value = lowered if absent[i] > ZERO else value
-        values[i] = value if value > SMALLEST else ZERO

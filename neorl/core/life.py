@@ -13,18 +13,20 @@
    agent leaves the centre of the map, see `neorl.core.displacement`.
 7. A node whose only goals are contacts learns by its own rules, see `neorl.beyond.contacts`.
 
-In `notebooks/companion/one_file.py`, this is the loop of `simulate`, and `perceive` in section 4.
-`scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
+In `notebooks/companion/one_file.py`, this is the loop of `simulate`, `perceive` in section 4, and
+`learn_transition` in section 5. `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
 
 from neorl.core.called import Calls
 from neorl.core.choices import Credit, MapState, UpdateOn, Vector
 from neorl.core.geometry import cell_within, contact_cell, locate, with_kept_directions
 from neorl.core.kernel import inlined_kernel, kernel
-from neorl.core.learning import UNIT, ZERO, enter, learn_transition, start_track
+from neorl.core.learning import (UNIT, ZERO, enter, learn_all_goals, learn_one_goal, order_of, rate_events, rule_of,
+                                 values_of)
 from neorl.core.network import choose, learn_worth
 from neorl.core.record import Memory, Record
 from neorl.core.scene import ABSENT, Scene
+from neorl.core.trace import fade, forget_all, join, learn_remembered, trace_of
 
 
 @kernel
@@ -79,6 +81,38 @@ def perceive(agent, memory, scene, own, node, point):
             enter(memory, t, cell_t)
         if ends:
             start_track(agent, memory, nres, point, cell)
+
+
+@inlined_kernel
+def learn_transition(agent, memory, own, nres, point, cell_t):
+    """Learn from a track's change of cell s⁻ → s⁺ (one file: `learn_transition`)."""
+    learning, rates, t = agent.learning, agent.rates, nres.first_track + point
+    track = memory.tracks[t]
+    cell_tm1 = track.cell
+    rule, values, order = rule_of(learning), values_of(agent, memory, nres), order_of(agent, nres)
+    trace = trace_of(agent, memory, nres, point)
+    rate_events(agent, memory, own, t)
+    if learning.bootstrap:
+        learn_all_goals(values, rule, cell_tm1, cell_t, rates)
+    if learning.memory_retained > ZERO:
+        track.remembered = fade(trace, track.remembered, learning.memory_retained, learning.discount)
+        if learning.bootstrap:  # the cell has already learned by bootstrapping, so it joins afterwards
+            learn_remembered(values, order, rule, trace, track.remembered, cell_t)
+        track.remembered = join(trace, track.remembered, cell_tm1, rates, rule.absent_rate, UNIT, UNIT)
+        if not learning.bootstrap:
+            learn_remembered(values, order, rule, trace, track.remembered, cell_t)
+    elif not learning.bootstrap:
+        learn_one_goal(values, order, rule, cell_tm1, cell_t, rates)
+
+
+@inlined_kernel
+def start_track(agent, memory, nres, point, cell):
+    """Start the track of a point in a cell, without a memory."""
+    t = nres.first_track + point
+    enter(memory, t, cell)
+    if memory.tracks[t].remembered > 0:
+        forget_all(trace_of(agent, memory, nres, point), memory.tracks[t].remembered)
+        memory.tracks[t].remembered = 0
 
 
 @kernel

@@ -33,7 +33,8 @@ from neorl.core.building import firsts, new_agent
 from neorl.core.called import Own, features
 from neorl.core.calls import execute, in_table
 from neorl.core.choices import Cut, Feature, MapState, Vector
-from neorl.core.geometry import TAU, locate
+from neorl.core.direction import TAU
+from neorl.core.geometry import locate
 from neorl.core.kernel import array, check_kernel, full_name, kernel, new_tuple
 from neorl.core.record import Memory, Record
 from neorl.core.scene import MOST_AXES, Scene, checked_scene

@@ -20,6 +20,7 @@ from neorl.core.kernel import array, tabled
 INT, REAL, SINGLE, FLAG = np.int64, np.float64, np.float32, np.bool_
 INDEX = np.uint64  # never negative: an index that might be would have to be tested
 FEWEST_ROWS, MORE = 32, 16
+OF_AXIS, OF_CREDIT = range(2)  # places in `faults`
 ENTRIES = 3  # values of an action in a cell of a map of contacts, see `neorl.beyond.contacts`
 
 

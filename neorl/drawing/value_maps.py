@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from neorl import checks
 from neorl.agents.individual import Individual
-from neorl.core.geometry import TAU
+from neorl.core.direction import TAU
 from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
 from neorl.core.scene import CARDINAL, Actions

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.description import described, restored
+from neorl.experiments.bins import bin_steps, n_bins
 from neorl.experiments.condition import Condition
-from neorl.experiments.run import bin_steps, n_bins
 from neorl.extras import require
 from neorl.files import read_arrays, write_arrays
 

@@ -22,10 +22,10 @@ from neorl.core import life
 from neorl.core.calls import execute, in_table
 from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
+from neorl.experiments.bins import bin_steps, checked_bins
 from neorl.worlds.rollout import recorded_in, rollout_in
 from neorl.worlds.world import World, check_outcome, checked_rules
 
-BIN_SECONDS = 0.2
 SLICE = 10_000  # steps between two checks for an interruption
 MOST_STEPS = 2**63 - 1
 
@@ -138,8 +138,8 @@ class Run(Individual):
         if rewards is None and hits is None:
             bin_length = last + 1  # a single bin, which is discarded
         bins = -(-last // bin_length)
-        rewards = _bins("rewards", rewards, np.float32, bins)
-        hits = _bins("hits", hits, np.int16, bins, len(self.world.kinds))
+        rewards = checked_bins("rewards", rewards, np.float32, bins)
+        hits = checked_bins("hits", hits, np.int16, bins, len(self.world.kinds))
         paid, due = 0.0, self.step + every
         while self.step < last:
             paid = self._take(rollout_in(self.world.dynamics), min(last, due, self.step + SLICE), paid, bin_length,
@@ -194,31 +194,3 @@ class Run(Individual):
         """Raise ValueError for a kernel of the user's that has broken a rule in the last steps."""
         check_outcome(self.world, self._last_kernel, self._world_state, paid)
         self._check_faults()
-
-
-def _bins(name, given, dtype, bins, *beside):
-    """The array for a run's rewards or hits: the one given, or a new one."""
-    if given is None:
-        return np.zeros((bins, *beside), dtype)
-    if (not isinstance(given, np.ndarray) or given.dtype != dtype or len(given) < bins or given.shape[1:] != beside
-            or not given.flags.c_contiguous or not given.flags.writeable):
-        found = f"{given.dtype} {given.shape}" if isinstance(given, np.ndarray) else checks.shown(given)
-        raise ValueError(f"{name} must be {dtype.__name__} from {(bins, *beside)} on, contiguous and writeable, but is "
-                         f"{found}")
-    return given
-
-
-def bin_steps(world):
-    """The number of steps in a bin: 0.2 s, rounded, and at least one."""
-    return max(1, round(BIN_SECONDS * world.fps))
-
-
-def n_bins(world, steps):
-    """The number of bins of a run of `steps` steps, of which the last may be short."""
-    return -(-steps // bin_steps(world))
-
-
-def new_bins(world, runs, steps):
-    """Zeros for the rewards and hits of runs of `steps` steps: float32 (runs, bins) and int16 (runs, bins, kinds)."""
-    bins = n_bins(world, steps)
-    return np.zeros((runs, bins), np.float32), np.zeros((runs, bins, len(world.kinds)), np.int16)

@@ -29,9 +29,10 @@ from neorl.agents.memory import fitting_runs, usable_bytes
 from neorl.container import cores
 from neorl.core.identity import can_cache
 from neorl.core.kernel import announcing
+from neorl.experiments.bins import n_bins, new_bins
 from neorl.experiments.condition import PARTS, Condition
 from neorl.experiments.result import Result
-from neorl.experiments.run import SLICE, Run, n_bins, new_bins
+from neorl.experiments.run import SLICE, Run
 from neorl.experiments.store import Keeper
 from neorl.warn import users_frame, work_for
 from neorl.worlds.world import World

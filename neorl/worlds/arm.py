@@ -21,7 +21,7 @@ import numpy as np
 
 from neorl import checks
 from neorl.checks import AtLeastOne, Within
-from neorl.core.geometry import circle
+from neorl.core.direction import circle
 from neorl.core.kernel import array, kernel
 from neorl.core.scene import Actions, Scene
 from neorl.core.stream import uniform

@@ -18,15 +18,14 @@ from neorl.core.kernel import array, fields, inlined, inlined_kernel, kernel
 from neorl.core.record import Memory, Record
 from neorl.core.scene import ABSENT, Scene
 
-
 MOST_HITS = 32_767  # in a bin, the maximum of its type
 MOST_RECORDED = 2**63 - 1  # in a frame, likewise
 
 
 @inlined_kernel
-def is_placed(scene, n_axes):
+def is_placed(scene):
     """Whether the agent's place and velocity keep the rules of worlds."""
-    for axis in range(n_axes):
+    for axis in range(scene.position.shape[0]):
         if not (abs(scene.position[axis]) <= LARGEST and abs(scene.velocity[axis]) <= LARGEST):
             return False
     return True
@@ -39,15 +38,6 @@ def is_known(scene, thing, n_kinds):
 
 
 @inlined_kernel
-def keeps_rules(scene, n_kinds):
-    """Whether a scene keeps the rules of worlds."""
-    for thing in range(scene.met.shape[0]):
-        if not is_known(scene, thing, n_kinds):
-            return False
-    return is_placed(scene, scene.position.shape[0])
-
-
-@inlined_kernel
 def observed(agent, memory, scene, life, reward, hits, interval, most):
     """Perceive the outcome of an action, learn from it, and add the things met to hits[interval], up to `most` each.
 
@@ -55,7 +45,7 @@ def observed(agent, memory, scene, life, reward, hits, interval, most):
     """
     agent.reward = reward
     life.observe(agent, memory, scene, life.calls)
-    if not is_placed(scene, scene.position.shape[0]):  # at once, since a later step may put the agent back
+    if not is_placed(scene):  # at once, since a later step may put the agent back
         return False
     for thing in range(scene.met.shape[0]):
         met = scene.met[thing]
@@ -63,6 +53,25 @@ def observed(agent, memory, scene, life, reward, hits, interval, most):
             return False
         if met != 0 and hits[interval, met - 1] < most:
             hits[interval, met - 1] += 1
+    return True
+
+
+@inlined_kernel
+def keeps_rules(scene, n_kinds):
+    """Whether a scene keeps the rules of worlds."""
+    for thing in range(scene.met.shape[0]):
+        if not is_known(scene, thing, n_kinds):
+            return False
+    return is_placed(scene)
+
+
+@inlined_kernel
+def begun_again(agent, memory, scene, life, n_kinds):
+    """Begin an episode in the scene that a reset has left; returns whether that keeps the rules."""
+    if not keeps_rules(scene, n_kinds):
+        return False
+    if agent.notices_resets:
+        life.begin(agent, memory, scene, life.calls)
     return True
 
 
@@ -95,11 +104,9 @@ def rollout_in(dynamics):
                 return total
             if done:
                 reset(world_state, rules)
-                if not keeps_rules(scene, hits.shape[1]):
+                if not begun_again(agent, memory, scene, life, hits.shape[1]):
                     clock[0], clock[1] = now + 1, 1
                     return total
-                if agent.notices_resets:
-                    life.begin(agent, memory, scene, life.calls)
         clock[0] = last_step
         return total
 
@@ -144,11 +151,9 @@ def recorded_in(dynamics):
                 ends[episodes], returns[episodes], paid[1] = now + 1, paid[1], 0.0
                 episodes += 1
                 reset(world_state, rules)
-                if not keeps_rules(scene, hits.shape[1]):
+                if not begun_again(agent, memory, scene, life, hits.shape[1]):
                     clock[0], clock[1] = now + 1, 1
                     return episodes
-                if agent.notices_resets:
-                    life.begin(agent, memory, scene, life.calls)
         clock[0] = last_step
         return episodes
 

@@ -29,11 +29,11 @@ def checked(name: str, walls: Sequence[Sequence[float]], low: float = -checks.LA
     name: of the argument. walls: rectangles (left, top, right, bottom) in `low` … `high`, with left < right and
     top < bottom. Raises ValueError for anything else.
     """
-    found = tuple(tuple(checks.real(name, value, low, high) for value in checks.several(name, each))
-                  for each in checks.several(name, walls))
-    if any(len(each) != 4 or not (each[0] < each[2] and each[1] < each[3]) for each in found):
+    rectangles = tuple(tuple(checks.real(name, value, low, high) for value in checks.several(name, wall))
+                       for wall in checks.several(name, walls))
+    if any(len(wall) != 4 or not (wall[0] < wall[2] and wall[1] < wall[3]) for wall in rectangles):
         raise checks.error(name, "rectangles (left, top, right, bottom)", walls)
-    return found
+    return rectangles
 
 
 def table(walls: Sequence[Sequence[float]]) -> NDArray[np.float64]:
@@ -50,10 +50,10 @@ def block(walls, position, axis, after):
     """Whether a wall is in the way of a move along one axis, from a position to the coordinate `after`."""
     before, beside, blocked = position[axis], position[1 - axis], False
     first, last = min(before, after), max(before, after)
-    for each in range(walls.shape[0]):
-        low, high = walls[each, axis], walls[each, axis + 2]
+    for wall in range(walls.shape[0]):
+        low, high = walls[wall, axis], walls[wall, axis + 2]
         enters, crosses = low < after < high, first <= low and high <= last
-        blocked = blocked or walls[each, 1 - axis] < beside < walls[each, 3 - axis] and (enters or crosses)
+        blocked = blocked or walls[wall, 1 - axis] < beside < walls[wall, 3 - axis] and (enters or crosses)
     return blocked
 
 
@@ -61,8 +61,8 @@ def block(walls, position, axis, after):
 def contain(walls, x, y):
     """Whether a point is inside a wall; the edge is outside."""
     inside = False
-    for each in range(walls.shape[0]):
-        inside = inside or walls[each, 0] < x < walls[each, 2] and walls[each, 1] < y < walls[each, 3]
+    for wall in range(walls.shape[0]):
+        inside = inside or walls[wall, 0] < x < walls[wall, 2] and walls[wall, 1] < y < walls[wall, 3]
     return inside
 
 
@@ -96,10 +96,10 @@ def distance_along(walls: Sequence[Sequence[float]], x: float, y: float) -> Any:
 
 
 def _some(walls):
-    found = checked("walls", walls)
-    if not found:
+    walls = checked("walls", walls)
+    if not walls:
         raise ValueError("walls must hold a wall or more, since there is no distance to none, but is empty")
-    return found
+    return walls
 
 
 @kernel_maker

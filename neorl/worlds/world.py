@@ -157,9 +157,9 @@ class World(Described, metaclass=_Checking):
 def check_definition(world):
     """Raise TypeError for a world that lacks something, ValueError for a part that is not what it must be."""
     name = type(world).__name__
-    for each in ("kinds", "actions", "things", "size", "fps", "rules"):
-        if getattr(type(world), each, None) is None and getattr(world, each, None) is None:
-            raise TypeError(f"{name} must have {each}, as a World with dynamics, but has none; see neorl.worlds.world "
+    for part in ("kinds", "actions", "things", "size", "fps", "rules"):
+        if getattr(type(world), part, None) is None and getattr(world, part, None) is None:
+            raise TypeError(f"{name} must have {part}, as a World with dynamics, but has none; see neorl.worlds.world "
                             "for what a subclass defines")
     kinds = checks.several(f"kinds of {name}", world.kinds)
     if len(set(map(str, kinds))) < len(kinds) or not all(isinstance(each, str) for each in kinds):
@@ -172,18 +172,18 @@ def check_definition(world):
             f"terminal of {name}", world.terminal)] != [bool] * len(kinds):
         raise checks.error(f"terminal of {name}", f"None, or {len(kinds)} of True and False, for {kinds}",
                            world.terminal)
-    for kind, each in checks.instance(f"dynamics of {name}", world.dynamics, Dynamics)._asdict().items():
-        check_kernel(f"{kind} of {name}", each)
-        takes = tuple(inspect.signature(function_of(each)).parameters)
-        if kind == "reset" and not {"state", "rules"} <= fields(each).keys() or len(takes) != 2 + (kind == "step"):
-            raise ValueError(f"{kind} of {name} must take (state, rules{', action' * (kind == 'step')}), annotated "
+    for role, dynamic in checks.instance(f"dynamics of {name}", world.dynamics, Dynamics)._asdict().items():
+        check_kernel(f"{role} of {name}", dynamic)
+        takes = tuple(inspect.signature(function_of(dynamic)).parameters)
+        if role == "reset" and not {"state", "rules"} <= fields(dynamic).keys() or len(takes) != 2 + (role == "step"):
+            raise ValueError(f"{role} of {name} must take (state, rules{', action' * (role == 'step')}), annotated "
                              f"with their types, but takes ({', '.join(takes)})")
-    if (found := fields(world.State)).get("scene") is not Scene or found.get("stream") != STREAM:
+    if (parts := fields(world.State)).get("scene") is not Scene or parts.get("stream") != STREAM:
         raise ValueError(f"the state of {name} must have a field scene, a neorl.Scene, and a field stream, "
-                         f"neorl.array('uint64', 4), but has {', '.join(found)}")
-    for each, kind in found.items():
+                         f"neorl.array('uint64', 4), but has {', '.join(parts)}")
+    for part, kind in parts.items():
         if not isinstance(kind, tuple) and not is_tuple(kind):
-            raise checks.error(f"{each} in the state of {name}", "annotated as a neorl.array or a named tuple", kind)
+            raise checks.error(f"{part} in the state of {name}", "annotated as a neorl.array or a named tuple", kind)
 
 
 def checked_rules(world):

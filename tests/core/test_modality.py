@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from neorl import Axis, Modality, NresMap, Scene, WaterWorld, kernel
 from neorl.core.calls import execute
-from neorl.core.geometry import CIRCLE_TERMS, TAU, circle, heading, turn
+from neorl.core.direction import CIRCLE_TERMS, TAU, circle, heading, turn
 from neorl.core.kernel import function_of
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL, cartesian, polar)

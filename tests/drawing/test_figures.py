@@ -8,7 +8,7 @@ from companion import paper_c
 from companion.shared.smoothing import draw_smoothed, low_passed
 from neorl import (Condition, NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells,
                    simulate)
-from neorl.core.geometry import TAU
+from neorl.core.direction import TAU
 from neorl import drawing
 from neorl.drawing.curves import draw_sums
 from neorl.drawing.style import looks

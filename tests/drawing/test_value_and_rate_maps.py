@@ -7,7 +7,7 @@ from matplotlib.transforms import Affine2D
 
 from companion.paper_b.receptive_fields import draw_receptive_fields
 from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Run, WaterWorld, drawing
-from neorl.core.geometry import TAU
+from neorl.core.direction import TAU
 from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, polar
 
 TANK = WaterWorld()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from neorl import simulate
-from neorl.experiments.run import new_bins
+from neorl.experiments.bins import new_bins
 
 SPANNING = ["place N10, calibrated", "every modality", "both, self", "both, per object", "no-op",
             "both, step", "network D, calibrated", "arena, calibrated", "softmax", "with a memory, moved",

@@ -11,7 +11,7 @@ from saved_files import rewrite
 from neorl import (Agent, Arena, Condition, Desire, Node, Result, WaterWorld, brownian, network_d, place_cells,
                    simulate)
 from neorl.core.modality import PLACE_CELL
-from neorl.experiments.run import new_bins
+from neorl.experiments.bins import new_bins
 
 ARENA = Arena(places=[("run", 0.3, 0.3), ("time", 0.6, 0.6), ("reward", 0.5, 0.5)])
 

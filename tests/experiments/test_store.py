@@ -17,7 +17,7 @@ from same import alone
 from neorl import Condition, Learning, Policy, Result, WaterWorld, files, kernel, place_cells, simulate, softmax, sweep
 from neorl.experiments import condition as conditions
 from neorl.experiments import simulation, store
-from neorl.experiments.run import new_bins
+from neorl.experiments.bins import new_bins
 
 LONG = Condition(place_cells([3]), WaterWorld(), simulation.TASK_STEPS, 6)
 SHORT = Condition(place_cells([3]), WaterWorld(), 500, 3)

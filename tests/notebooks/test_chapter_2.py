@@ -7,7 +7,7 @@ from page_cells import executed
 from companion.chapter_2.tuning import (Trajectory, TuningCurve, egocentric, in_field, information,
                                         information_in_spikes, lose_track, roam, spikes, tuning_curve)
 from neorl import NresMap
-from neorl.core.geometry import TAU
+from neorl.core.direction import TAU
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, LANDMARK_VECTOR_CELL,
                                  OBJECT_VECTOR_CELL)
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from neorl.core.geometry import circle
+from neorl.core.direction import circle
 from neorl.core.kernel import function_of
 from neorl.worlds import arm
 from neorl.worlds.arm import Arm

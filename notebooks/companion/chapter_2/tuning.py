@@ -17,7 +17,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import lfilter
 
-from neorl.core.geometry import TAU
+from neorl.core.direction import TAU
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 
 SHIFTS = 99  # random shifts of the spikes in time

@@ -14,7 +14,8 @@ from neorl.agents.agent import Desire, Node, Place
 from neorl.agents.rules import Policy
 from neorl.core.modality import PLACE_CELL
 from neorl.experiments.condition import Condition
-from neorl.experiments.run import Run, bin_steps
+from neorl.experiments.bins import bin_steps
+from neorl.experiments.run import Run
 
 PLACES = (Place(0.3, 0.3), Place(0.65, 0.65))  # desired in turn, for the agent's position
 MOVES, SECONDS_A_MOVE = 6, 30

@@ -8,7 +8,7 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Circle, Rectangle
 
 from companion.page.style import mark
-from neorl.core.geometry import TAU
+from neorl.core.direction import TAU
 from neorl.drawing.boards import as_board
 from neorl.drawing.curves import draw_curves
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, axes_or_new, letters, width_of_figures

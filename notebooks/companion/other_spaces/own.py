@@ -12,7 +12,7 @@ from companion.shared.tabular import Rates
 from neorl.agents.agent import Desire, Node, Place
 from neorl.agents.rules import Policy
 from neorl.agents.spaces import FAR_RADAR, pilot, reacher, seeker, swimmer
-from neorl.core.geometry import TAU
+from neorl.core.direction import TAU
 from neorl.core.modality import Axis, Modality
 from neorl.experiments.condition import Condition
 from neorl.worlds.arena import Arena

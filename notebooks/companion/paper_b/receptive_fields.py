@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Rectangle
 
-from neorl.core.geometry import TAU
+from neorl.core.direction import TAU
 from neorl.drawing.boards import board_or_new
 from neorl.drawing.style import AGENT, INK
 from neorl.worlds.probe import HALF_SECOND

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.browser.explorer import AnyWidget, text_of, traitlets
-from neorl.experiments.run import Run, new_bins
+from neorl.experiments.bins import new_bins
+from neorl.experiments.run import Run
 from neorl.worlds.waterworld import GREEN, WaterWorld
 
 FRAMES_A_SECOND = 25

@@ -12,7 +12,7 @@ from companion.thesis.priors import BEYOND, WITHIN
 from companion.shared.smoothing import CUTOFF_PERIODS, FILTER_ORDER
 from companion.thesis.reading import LAYERS, LENGTHS, PRIMES, SINGLE, TO_THE_LETTER, Reading, conditions
 from companion.thesis.statements import STATEMENTS
-from neorl.experiments.run import BIN_SECONDS
+from neorl.experiments.bins import BIN_SECONDS
 from neorl.worlds import waterworld
 
 PLE = "WaterWorld of the PyGame Learning Environment, rules confirmed against recordings of it"
