@@ -26,7 +26,8 @@ ROOT = Path(__file__).parents[1]
 os.environ["PYTHONPATH"] = os.pathsep.join([*map(str, (ROOT / "notebooks", ROOT / "tests")),
                                             *filter(None, [os.environ.get("PYTHONPATH")])])
 
-BROWSERS = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
+# The shell has no window, which costs the others a second a page.
+BROWSERS = ["chromium-headless-shell", "chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
 QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync"]  # no requests of its own
 PATIENCE = 60_000  # milliseconds that a test waits for a page, since the machine may be busy

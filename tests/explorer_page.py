@@ -4,14 +4,14 @@ import json
 from pathlib import Path
 
 from excerpts import WIDGET_STATE, WIDGET_VIEW, script
-from ipywidgets.embed import embed_data
+from ipywidgets.embed import dependency_state, embed_data
 
 BOOK = Path(__file__).parent.parent / "book"
 
 
 def write_page(folder, explorers, change=None):
     """Write page.html into a folder. `change` may alter the stored record of the first Explorer."""
-    data = embed_data(views=explorers, drop_defaults=False)
+    data = embed_data(explorers, state=dependency_state(explorers, drop_defaults=False))  # not those of other tests
     state = json.loads(json.dumps(data["manager_state"], sort_keys=True))  # as in stored notebooks
     if change:
         change(state["state"][explorers[0].model_id])
