@@ -14,8 +14,7 @@ import matplotlib
 import pytest
 from hypothesis import settings
 from matplotlib import pyplot as plt
-
-from neorl import files
+from saved_files import share_compiled
 
 # No deadline: a kernel compiles on its first call. Derandomised: a test that fails here fails everywhere.
 settings.register_profile("neorl", deadline=None, derandomize=True)
@@ -55,10 +54,8 @@ def closed():
 
 @pytest.fixture
 def cache_folder(tmp_path, monkeypatch):
-    """An empty cache folder in place of the user's, with which it shares only the compiled kernels."""
-    compiled = files.cache_folder().resolve() / "compiled"
-    compiled.mkdir(parents=True, exist_ok=True)
-    (tmp_path / "compiled").symlink_to(compiled)
+    """An empty cache folder in place of the user's, with which it shares only what is compiled."""
+    share_compiled(tmp_path)
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     return tmp_path
 

@@ -32,9 +32,8 @@ from nbclient.exceptions import CellExecutionError
 from nbformat.v4 import new_code_cell, new_notebook
 from page_cells import ALSO_SMALL, NOTEBOOKS, SMALL, computed_below, suggested
 from papermill.cli import _resolve_type as value_of
+from saved_files import share_compiled
 from traitlets.config import Config
-
-from neorl.files import cache_folder
 
 LEAST = {"runs": 1, "n": 1, "resolution": 1, "resolutions": [1], "layers": [1], "counts": [1], "stays": [1],
          "n_creeps": 1, "place_gain": 0.0, "recursion": 0.0, "learning_rate": 0.001, "exploration": 0.0, "memory": 1,
@@ -51,7 +50,6 @@ OTHERS = {
     "paper_b": {"resolutions": [3, 4], "n_creeps": 8, "place_gain": 100.0},
     "paper_c": {"n_creeps": 8, "recursion": 2.5, "resolutions": [3, 4]},
     "performance": {"resolution": 50, "n_creeps": 20}, "your_research": {"resolutions": [2, 20]}}
-COMPILED = "compiled", "wasm", "wasm.lock"  # parts of the cache
 WAYS = "defaults", "twice", "below", "least", "others", "papermill", "suggested", "refused"
 MEASURED = {  # the cells that show measured times
     "agent_in_one_file": {"comparison"}, "alternatives": {"costs-table"}, "beyond_agents": {"e65b2d27"},
@@ -163,8 +161,7 @@ def row_of(name):
     """A page, what comes of it in each way, {way: "ok" or the failure}, and the seconds that it takes."""
     began, row = time.monotonic(), {}
     with tempfile.TemporaryDirectory() as cache:
-        for part in COMPILED:
-            (Path(cache) / part).symlink_to(cache_folder().resolve() / part)
+        share_compiled(Path(cache))
         quiet = {"transport": "ipc", "ip": f"{cache}/kernel"}  # over TCP the kernel warns that it is not encrypted
         client = NotebookClient(new_notebook(), kernel_name="python3", config=Config(KernelManager=quiet))
         with client.setup_kernel(cwd=str(NOTEBOOKS), env=os.environ | {"NEORL_CACHE": cache}):
@@ -179,8 +176,6 @@ def row_of(name):
 
 
 def main(names):
-    for folder in COMPILED[:2]:
-        (cache_folder() / folder).mkdir(parents=True, exist_ok=True)
     if unknown := {*names} - {*OTHERS}:
         sys.exit(f"pages must be among {', '.join(OTHERS)}, but {', '.join(unknown)} is not")
     width, failures = max(map(len, names)), 0

@@ -13,8 +13,7 @@ from pathlib import Path
 
 import nbformat
 from nbformat.v4 import new_code_cell, new_markdown_cell
-
-from neorl.files import cache_folder
+from saved_files import share_compiled
 
 ROOT = Path(__file__).parents[1]
 NOTEBOOKS = ("assumptions", "chapter_5", "paper_a")
@@ -54,10 +53,7 @@ def make_tree(tree):
         shutil.copy(path, tree / "book")  # links would lead the build to the real tree
     (tree / "neorl").mkdir()  # pages depend on the sources here, but import the real package
     (tree / ".cache").mkdir()
-    for name in ("compiled", "wasm"):
-        shared = cache_folder().resolve() / name
-        shared.mkdir(parents=True, exist_ok=True)
-        (tree / ".cache" / name).symlink_to(shared)
+    share_compiled(tree / ".cache")
     for name, content in {"_config.yml": CONFIG, "pyproject.toml": "[project]\n", "environment.txt": "",
                           "book/_toc.yml": TOC, "book/index.md": INDEX, "book/running.md": "# Running it\n",
                           "book/glossary.md": "# Glossary\n\n```{glossary}\nmap\n  Cells.\n```\n"}.items():
