@@ -124,9 +124,10 @@ def test_requests_to_the_previous_run_are_not_answered(explorer):
             return Promise.resolve().then(() => act(0.7));
         }""", [step, menu, second])
         wait(explorer, "paused")
-        explorer.wait_for_timeout(100)
+        explorer.locator(step).click()  # which the worker answers last
+        explorer.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 0")
         root = explorer.locator(".neorl-explorer")
-        assert [root.get_attribute(f"data-{name}") for name in ("step", "score", "goal")] == ["0", "0", ""]
+        assert [root.get_attribute(f"data-{name}") for name in ("step", "goal")] == ["1", ""]
         expect(explorer.locator('[name="map"]')).to_have_value(re.compile("^" + AGENTS[second].nodes[0].name))
 
 

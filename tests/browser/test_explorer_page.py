@@ -253,7 +253,7 @@ def test_arrow_keys_play_against_the_agent_and_both_scores_are_shown(open_page, 
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 5")
     scrolled = page.evaluate("scrollY")
     page.keyboard.down("ArrowDown")
-    page.wait_for_timeout(400)
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 25")
     page.keyboard.up("ArrowDown")
     expect(explorer).to_contain_text(re.compile(r"You: [−\d]+ · neoRL: [−\d]+"))
     assert page.evaluate("scrollY") == scrolled
