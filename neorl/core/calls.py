@@ -4,8 +4,6 @@ In a kernel, a table looks like the named tuple that it is made of (`neorl.core.
 passed by the address of its code. So it is compiled once and by itself, and replacing it compiles nothing else.
 """
 
-import functools
-
 import numpy as np
 
 from neorl.core.interpreted import interpreted
@@ -27,10 +25,7 @@ def execute(kernel, *arguments):
     try:
         if not isinstance(kernel, Kernel):
             return interpret(kernel, *arguments)
-        passed = list(_passed(kernel, arguments))
-        if any(is_passed(each) for each in passed):  # numba would look up their types far more slowly
-            return kernel.compiled_for(tuple(map(type_of, passed))).entry(*map(content_of, passed))
-        return kernel.for_python(*passed)
+        return kernel.for_python(*_passed(kernel, arguments))
     except Exception as error:
         raise_named((kernel, *_kernels_in(arguments)), error)
 
@@ -41,21 +36,20 @@ def interpret(kernel, *arguments):
         return kernel(*map(interpreted, arguments))
 
 
-def bound(called, *arguments):
+def bound(kernel, *arguments):
     """A function without arguments that executes a kernel of this package on these named tuples."""
     if jit_is_off():
-        return lambda: execute(called, *arguments)
-    arguments = [in_table(each, record_among(arguments)) for each in arguments]
-    entry = called.compiled_for(tuple(map(type_of, arguments))).entry
-    contents = [content_of(each) for each in arguments]
+        return lambda: execute(kernel, *arguments)
+    tables = [in_table(values, _record_among(arguments)) for values in arguments]
+    entry = kernel.compiled_for(tuple(table._numba_type_ for table in tables)).entry
 
     def call():
-        for each in arguments:
-            each.refresh()
+        for table in tables:
+            table.refresh()
         try:
-            return entry(*contents)
+            return entry(*tables)
         except Exception as error:
-            raise_named((called, *_kernels_in(arguments)), error)
+            raise_named((kernel, *_kernels_in(tables)), error)
 
     return call
 
@@ -67,26 +61,11 @@ def in_table(values, record=None):
     """
     if jit_is_off():
         return interpreted(values)
+    if _is_record(values):
+        return values[()]
     from neorl.core.tables import Table
 
-    return PassedRecord(values) if is_record(values) else Table(values, record)
-
-
-def record_among(arguments):
-    """The dtype of the record among the arguments of a kernel, or None."""
-    within = (record_among(each) for each in arguments if is_tuple(each))
-    return next((each.dtype for each in arguments if is_record(each) or isinstance(each, PassedRecord)),
-                next(filter(None, within), None))
-
-
-def is_record(value):
-    """Whether an argument is the record of an agent: an array without axes."""
-    return isinstance(value, np.ndarray) and value.ndim == 0 and value.dtype.names is not None
-
-
-def is_passed(value):
-    """Whether an argument is as `in_table` returns it."""
-    return hasattr(value, "refresh")
+    return Table(values, record)
 
 
 def _passed(kernel, arguments):
@@ -94,45 +73,29 @@ def _passed(kernel, arguments):
     if len(arguments) != code.co_argcount:
         raise TypeError(f"{full_name(kernel)} must be called with {code.co_argcount} arguments, but is with "
                         f"{len(arguments)}")
-    for name, each in zip(code.co_varnames, arguments):
-        if is_passed(each):
-            each.refresh()
-        elif is_record(each) or getattr(kernel.__annotations__.get(name), "is_tabled", False):
-            each = in_table(each, record_among(arguments))
-        yield each
+    for name, value in zip(code.co_varnames, arguments):
+        if hasattr(value, "refresh"):
+            value.refresh()
+        elif _is_record(value) or is_tuple(value) and getattr(kernel.__annotations__.get(name), "is_tabled", False):
+            value = in_table(value, _record_among(arguments))
+        yield value
+
+
+def _record_among(values):
+    """The dtype of the record of an agent among arguments, and what they consist of, or None."""
+    if isinstance(values, tuple):
+        return next(filter(None, map(_record_among, values)), None)
+    return values.dtype if _is_record(values) else None
+
+
+def _is_record(value):
+    return isinstance(value, np.ndarray | np.void) and value.ndim == 0 and value.dtype.names is not None
 
 
 def _kernels_in(arguments):
-    for each in arguments:
-        values = getattr(each, "values", each)
-        for field in values if is_tuple(values) else ():
-            yield from [field] if callable(field) else _kernels_in([field])
-
-
-def type_of(value):
-    """The numba type of an argument."""
-    from numba import typeof
-
-    return value.type if is_passed(value) else typeof(value)
-
-
-def content_of(value):
-    """What compiled code is called with for an argument."""
-    return value.content if is_passed(value) else value
-
-
-class PassedRecord:
-    """An agent's record for compiled code, with its numba type."""
-
-    def __init__(self, record):
-        self.content, self.dtype, self.type = record[()], record.dtype, _type_of_record(record.dtype)
-
-    def refresh(self):
-        """Do nothing: the user's kernels are elsewhere."""
-
-
-@functools.cache
-def _type_of_record(dtype):
-    from numba import from_dtype
-
-    return from_dtype(dtype)
+    for value in arguments:
+        value = getattr(value, "values", value)
+        if is_tuple(value):
+            yield from _kernels_in(value)
+        elif callable(value):
+            yield value

@@ -1,12 +1,12 @@
 """The identity of values that a result depends on: their content, and everything that their code looks up.
 
-A cached file is found by a text of everything that determined it (`neorl.experiments.condition`,
-`neorl.core.compiling`). A function counts by its bytecode, since its file may have changed after it was read, and
-by the present values of its globals, closures, defaults and attributes of modules, down to the functions among them.
-The code of the rooms `core` and `worlds` counts by name, since the key of such a file also contains the digest of
-their source (`digest_of_source`); so does that of Python, numba and NumPy. A program must not assign to names in them.
+A cached result is found by a text of everything that determined it (`neorl.experiments.condition`). A function counts
+by its bytecode, since its file may have changed after it was read, and by the present values of its globals, closures,
+defaults and attributes of modules, down to the functions among them. The code of the rooms `core` and `worlds` counts
+by name, since the key of a result also contains the digest of their source (`digest_of_source`); so does that of
+Python, numba and NumPy. A program must not assign to names in them.
 
-numba takes all these values for constants when it compiles; a `Reading` compares them with the present ones.
+numba takes all these values for constants when it compiles; a `Reading` tells whether they are still the same.
 """
 
 import builtins
@@ -15,7 +15,6 @@ import dis
 import functools
 import hashlib
 import importlib.util
-import operator
 import pkgutil
 import sys
 import sysconfig
@@ -49,25 +48,28 @@ class Reading:
 
     def __init__(self, value):
         self._value, self.unknown, self._met = value, None, {}
-        self._names, self._cells, self.functions, self._arrays, self._is_mutable = [], [], [], [], False
+        self.functions, self._unchanged = [], []  # of the user's; whether each part that can change has not
         self.text = self._of(value)
-        self._values = self._found()
 
     def stands(self):
         """Whether the value is still the same, with all that it depends on."""
-        if (not self._is_mutable and all(map(operator.is_, self._found(), self._values))
-                and all(each.tobytes() == content for each, content in self._arrays)):
+        if all(is_unchanged() for is_unchanged in self._unchanged):
             return True
         now = Reading(self._value)
         if now.text == self.text:
-            vars(self).update(vars(now))  # found faster the next time
+            vars(self).update(vars(now))  # compared faster the next time
             return True
         return False
 
-    def _found(self):
-        return [*[space.get(name, MISSING) for space, name in self._names],
-                *[each.cell_contents for each in self._cells],
-                *[part for each in self.functions for part in (each.__code__, each.__defaults__, each.__kwdefaults__)]]
+    def _read_again(self):
+        """Let `stands` compare texts: nothing faster tells whether a part has changed."""
+        self._unchanged.append(bool)  # which returns False
+
+    def _watched(self, look_up, *arguments):
+        """What a function returns, which `stands` compares with what it returns then."""
+        value = look_up(*arguments)
+        self._unchanged.append(lambda: look_up(*arguments) is value)
+        return value
 
     def _of(self, value):
         if type(value) in PLAIN or isinstance(value, np.generic) and not isinstance(value, np.void):
@@ -75,8 +77,9 @@ class Reading:
         if isinstance(value, tuple):
             return f"{_kind(value)}{getattr(value, '_fields', '')}({', '.join(map(self._of, value))})"
         if isinstance(value, np.ndarray | np.void) and not value.dtype.hasobject:
-            self._arrays.append((value, value.tobytes()))
-            return f"{value.dtype}{value.shape}{self._arrays[-1][1].hex()}"
+            content = value.tobytes()
+            self._unchanged.append(lambda: value.tobytes() == content)
+            return f"{value.dtype}{value.shape}{content.hex()}"
         if isinstance(value, ModuleType):
             return value.__name__
         if isinstance(value, type):
@@ -91,7 +94,7 @@ class Reading:
         if isinstance(value, Enum):
             return f"{value!s}={self._of(value.value)}"
         if isinstance(value, list | set | frozenset | dict):
-            self._is_mutable = True
+            self._read_again()
             content = list(map(self._of, value.items() if isinstance(value, dict) else value))
             return f"{_kind(value)}[{', '.join(content if isinstance(value, list) else sorted(content))}]"
         return self._object(value)
@@ -108,30 +111,28 @@ class Reading:
         name = name_of(kind)
         if _is_known_class(kind):
             return name
-        found = {each: (kind.__members__, member) for each, member in getattr(kind, "__members__", {}).items()}
+        self._read_again()
+        constants = dict(getattr(kind, "__members__", {}))
         for base in reversed(kind.__mro__):
-            found |= {each: (vars(base), value) for each, value in vars(base).items()
-                      if isinstance(value, CONSTANTS) and not each.startswith("__")}
-        self._names += [(space, each) for each, (space, _) in found.items()]
-        return f"{name}({', '.join(f'{each}={self._of(value)}' for each, (_, value) in found.items())})"
+            constants |= {attribute: value for attribute, value in vars(base).items()
+                          if isinstance(value, CONSTANTS) and not attribute.startswith("__")}
+        return f"{name}({self._named(constants.items())})"
 
     def _function(self, value):
         function = getattr(value, "py_func", value)
         module, name = str(function.__globals__.get("__name__")), function.__qualname__
-        cells = [(each, cell) for each, cell in zip(function.__code__.co_freevars, function.__closure__ or ())
-                 if cell != CellType()]  # an empty one
-        self._cells += [cell for _, cell in cells]
-        closure = [(each, cell.cell_contents) for each, cell in cells]
+        found = [(variable, self._watched(getattr, cell, "cell_contents")) for variable, cell in zip(
+            function.__code__.co_freevars, function.__closure__ or ()) if cell != CellType()]  # an empty one
         if _is_known(module):
             arguments = self._of(getattr(value, "origin", (None, ()))[1])
-            return f"{module}:{name}{arguments}({self._named(closure) if module.startswith(OURS) else ''})"
+            return f"{module}:{name}{arguments}({self._named(found) if module.startswith(OURS) else ''})"
         if hasattr(value, "targetoptions"):
             raise ValueError(NOT_OF_NUMBA.format(name, "jit"))
         self.functions.append(function)
-        code, of_globals, attributes = _read(function.__code__)
-        scope = function.__globals__
-        self._names += [(scope, each) for each in of_globals]
-        found = closure + [(each, scope.get(each, getattr(builtins, each, None))) for each in of_globals]
+        bytecode, defaults, by_name = (self._watched(getattr, function, f"__{part}__")
+                                       for part in ("code", "defaults", "kwdefaults"))
+        code, of_globals, attributes = _read(bytecode)
+        found += [(each, self._watched(_global, function.__globals__, each)) for each in of_globals]
         modules = [(each, module) for each, module in found if isinstance(module, ModuleType)]
         for path, module in modules:  # which grows
             if _is_known(module.__name__):
@@ -139,14 +140,11 @@ class Reading:
                     _refuse_registered(vars(module).get(each))
                 continue
             for each in attributes:
-                self._names.append((vars(module), each))
-                if (attribute := getattr(module, each, MISSING)) is not MISSING:
-                    self._is_mutable |= each not in vars(module)  # its __getattr__ made it
+                if (attribute := self._watched(getattr, module, each, MISSING)) is not MISSING:
                     found.append((f"{path}.{each}", attribute))
                     if isinstance(attribute, ModuleType) and all(attribute is not known for _, known in modules):
                         modules.append((f"{path}.{each}", attribute))
-        defaults = self._of((function.__defaults__, *(function.__kwdefaults__ or {}).items()))
-        return f"{code}{defaults}({self._named(found)})"
+        return f"{code}{self._of((defaults, by_name))}({self._named(found)})"
 
     def _named(self, found):
         return ", ".join(f"{name}={self._of(each)}" for name, each in found)
@@ -169,7 +167,8 @@ class Reading:
             return str(id(value))
         if isinstance(reduced, str):
             return f"{getattr(value, '__module__', '')}:{reduced}"
-        self._is_mutable |= any(each is not None for each in reduced[2:])
+        if any(part is not None for part in reduced[2:]):
+            self._read_again()
         return ", ".join(self._of(list(each) if isinstance(each, Iterator) else each) for each in reduced)
 
 
@@ -243,6 +242,10 @@ def can_cache(*parts):
                   "would be noticed; install it with its source")
         return False
     return True
+
+
+def _global(scope, name):
+    return scope[name] if name in scope else getattr(builtins, name, None)
 
 
 def _kind(value):

@@ -41,6 +41,7 @@ from neorl.core.kernel_errors import not_compiled
 
 _making, _interpreting = threading.RLock(), threading.local()
 _kernels = WeakKeyDictionary[type, Any]()  # by the class that stands for them
+_of_makers: dict[tuple, Any] = {}  # kernels, by origin and identity
 
 
 class Kernel:
@@ -52,6 +53,7 @@ class Kernel:
     def __init__(self, function, is_inlined):
         functools.update_wrapper(self, function)
         self.py_func, self.is_inlined = function, is_inlined
+        self._reading, self._dispatchers = None, {}
 
     def __reduce_ex__(self, protocol):
         if protocol < 4 and not hasattr(self, "origin"):
@@ -87,17 +89,17 @@ class Kernel:
     @property
     def dispatcher(self):
         """The numba dispatcher that compiles the kernel for other kernels, the same for all threads."""
-        return self._made("inner", lambda compiling, reading: compiling.inner(self, reading))
+        return self._present("inner")
 
     @property
     def for_python(self):
         """The dispatcher for calls from Python, and by the kernel's address."""
-        return self._made("outer", lambda compiling, reading: self._compiles(compiling.outer(self, reading)))
+        return self._present("outer")
 
     @property
     def is_users(self):
         """Whether the kernel depends on code of the user's."""
-        return not self._made("is_ours", lambda compiling, reading: not reading.functions)
+        return bool(Reading(self).functions)
 
     def compiled_for(self, arguments, returns=None):
         """The `neorl.core.compiling.Compiled` for arguments of these numba types. returns: of its result, if given."""
@@ -106,30 +108,22 @@ class Kernel:
         with self._compiling():
             return compiled(self.for_python, arguments, returns)
 
-    def _compiles(self, dispatcher):
-        dispatcher._compile_for_args = functools.partial(self._compile, dispatcher)
-        return dispatcher
-
-    def _made(self, name, make):
-        """What `make` returns, made again when anything that the kernel depends on has changed: numba freezes it."""
+    def _present(self, name):
+        """A dispatcher, another one once anything that the kernel depends on has changed: numba freezes it."""
         from neorl.core import compiling
 
         with _making:
-            reading, made = self._parts.get(name, (None, None))
-            if reading is None or not reading.stands():
+            if self._reading is None or not self._reading.stands():
                 _refuse_global_random(self.py_func)  # again, since it may have come with a global
-                reading = Reading(self)
-                made = make(compiling, reading)
-                self._parts[name] = reading, made
-            return made
+                self._reading, self._dispatchers = Reading(self), {}
+            if name not in self._dispatchers:
+                self._dispatchers[name] = getattr(compiling, name)(self, self._reading)
+                self._dispatchers[name]._compile_for_args = self._entry_for
+            return self._dispatchers[name]
 
-    @functools.cached_property
-    def _parts(self):
-        return {}
-
-    def _compile(self, dispatcher, *arguments, **by_name):
-        with self._compiling():
-            return type(dispatcher)._compile_for_args(dispatcher, *arguments, **by_name)
+    def _entry_for(self, *arguments):
+        """The code for arguments of types that are new to numba's dispatcher, which calls this and then the code."""
+        return self.compiled_for(tuple(map(self.for_python.typeof_pyval, arguments))).entry
 
     @contextlib.contextmanager
     def _compiling(self):
@@ -271,34 +265,32 @@ def kernel_maker(function: Callable) -> Any:
     """
     if not inspect.isfunction(function):
         raise checks.error("function", "a Python function that makes kernels", function)
-    signature, known = inspect.signature(function), _Made()
-    if {each.kind.name for each in signature.parameters.values()} & {"KEYWORD_ONLY", "VAR_KEYWORD"}:
+    signature = inspect.signature(function)
+    if {parameter.kind.name for parameter in signature.parameters.values()} & {"KEYWORD_ONLY", "VAR_KEYWORD"}:
         raise checks.error("function", "without arguments by name alone, after * or **", function)
 
     @functools.wraps(function)
     def make(*arguments, **by_name):
-        given = signature.bind(*arguments, **by_name)
-        given.apply_defaults()
-        values = tuple(map(checks.plain, given.args))
+        bound = signature.bind(*arguments, **by_name)
+        bound.apply_defaults()
+        values = tuple(map(checks.plain, bound.args))
         try:
             hash(values)
         except TypeError:
             function(*values)  # whose own error may say more
             raise TypeError(f"arguments of {function.__qualname__} must be hashable, but are "
                             f"{checks.shown(values)}") from None
-        made = check_kernel(f"what {function.__qualname__} returns", function(*values))
-        made.origin = make, values
-        return known.setdefault((values, Reading((values, made)).text), made)
+        kernel = check_kernel(f"what {function.__qualname__} returns", function(*values))
+        kernel.origin = make, values
+        return _first_of(make, values, kernel)
 
     make.makes_kernels = True  # type: ignore[attr-defined]
     return make
 
 
-class _Made(dict):
-    """The kernels that a maker has made, of which another process makes its own."""
-
-    def __reduce__(self):
-        return _Made, ()
+def _first_of(maker, values, kernel):
+    """The first kernel of the same origin and identity, kept here so that a pickled maker takes none along."""
+    return _of_makers.setdefault((maker, values, Reading((values, kernel)).text), kernel)
 
 
 def array(dtype, *shape):

@@ -32,8 +32,7 @@ class Table:
     """A named tuple for compiled code. record: the dtype of the agent's record that its functions take."""
 
     def __init__(self, values, record=None):
-        self.values, self.type, self.content = values, _view(type(values), record), self
-        self._users = []
+        self.values, self._numba_type_, self._users = values, _view(type(values), record), []
         self.words = np.array(list(self._words(values)), np.int64)
         self.address = self.words.ctypes.data
 
@@ -41,17 +40,20 @@ class Table:
         for value, (name, field) in zip(values, fields(type(values)).items()):
             if is_tuple(field):
                 yield from self._words(value)
-            elif isinstance(value, np.ndarray):
-                yield from words_of(name, value, field)
-            elif isinstance(field, tuple):
+            elif field is Record:
+                yield value.ctypes.data
+            elif not isinstance(field, tuple):
+                yield int(value) if field in (bool, int) else int(np.float64(value).view(np.int64))
+            elif len(field) == 1:
                 yield self._address(field[0], value)
             else:
-                yield word_of(value, field)
+                yield from _words_of_array(name, value, *field)
 
     def _address(self, signature, kernel):
         if kernel is None:
             return 0
-        compiled = kernel.compiled_for(tuple(map(self.type.type_of, signature.arguments)), SCALARS[signature.returns])
+        types_of_arguments = tuple(map(self._numba_type_.type_of, signature.arguments))
+        compiled = kernel.compiled_for(types_of_arguments, SCALARS[signature.returns])
         if kernel.is_users:
             self._users.append((kernel, compiled.dispatcher))
         return compiled.library.get_pointer_to_function(compiled.name)
@@ -63,20 +65,12 @@ class Table:
             self.words[:] = list(self._words(self.values))
 
 
-def words_of(name, array, field):
-    """The words of an array: its address, and its lengths unless it is a record."""
-    if field is Record:
-        return (array.ctypes.data,)
-    dtype, shape = field
+def _words_of_array(name, array, dtype, shape):
+    """The words of an array: its address, and its lengths."""
     if array.dtype != dtype or array.ndim != len(shape) or not array.flags.c_contiguous:
         raise ValueError(f"{name} must be a contiguous array of {np.dtype(dtype)} with {len(shape)} axes, but is "
                          f"{checks.shown(array)}")
     return array.ctypes.data, *array.shape
-
-
-def word_of(number, field):
-    """The word of a number."""
-    return int(number) if field in (bool, int) else int(np.float64(number).view(np.int64))
 
 
 class View(types.Type):
@@ -86,10 +80,6 @@ class View(types.Type):
         self.kind, self.record = kind, record if takes_records(kind) else None
         of_record = self.record and hashlib.sha256(str(self.record).encode()).hexdigest()[:16]  # symbols contain it
         super().__init__(f"View({kind.__module__}.{kind.__qualname__}, {of_record})")
-
-    def member(self, name):
-        """The place of a field, in words, and its type."""
-        return _members(self)[name]
 
     def type_of(self, field):
         """The type of an annotation."""
@@ -116,6 +106,7 @@ def takes_records(kind):
 
 @functools.cache
 def _members(view):
+    """The place of each field, in words, and its type."""
     members, place = {}, 0
     for name, field in fields(view.kind).items():
         kind = view.type_of(field)
@@ -173,12 +164,12 @@ class ViewAttributes(AttributeTemplate):
     key = View
 
     def generic_resolve(self, view, name):
-        return view.member(name)[1] if name in fields(view.kind) else None
+        return _members(view)[name][1] if name in fields(view.kind) else None
 
 
 @lower_getattr_generic(View)
 def _attribute(context, builder, view, pointer, name):
-    place, kind = view.member(name)
+    place, kind = _members(view)[name]
     slot = builder.gep(pointer, [ir.Constant(WORD, place)])
     if isinstance(kind, View):
         return slot

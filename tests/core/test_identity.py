@@ -147,6 +147,24 @@ def test_a_maker_that_looks_up_a_changed_value_makes_another_kernel():
         kernel_maker(lambda a, *, by: None)
 
 
+def test_a_maker_that_is_given_an_equal_kernel_makes_another_since_either_may_change():
+    def adding(amount):
+        def add_to(more):
+            nonlocal amount
+            amount += more
+
+        return kernel(lambda x: x + amount), add_to
+
+    @kernel_maker
+    def twice(once):
+        return kernel(lambda x: once(once(x)))
+
+    (one, _), (other, add_to_other) = adding(1.0), adding(1.0)
+    of_one, of_other = twice(one), twice(other)
+    add_to_other(2.0)
+    assert (execute(of_one, 0.0), execute(of_other, 0.0)) == (2.0, 6.0)
+
+
 @pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
 def test_functions_that_numba_compiles_by_itself_are_refused():
     import numba

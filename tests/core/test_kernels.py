@@ -207,6 +207,16 @@ def first_of_two(one, other):
     return one
 
 
+def test_a_disk_that_is_full_costs_time_alone(monkeypatch, tmp_path):
+    def refuse(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+    monkeypatch.setattr("numba.core.caching.IndexDataCacheFile.save", refuse)
+    with pytest.warns(RuntimeWarning, match="compiled kernels cannot be kept .No space left on device"):
+        assert execute(softmax(0.125), np.array([0.0, 9.0]), np.arange(4, dtype=np.uint64)) in (0, 1)
+
+
 def test_a_kernel_that_is_given_another_number_of_arguments_says_so():
     with pytest.raises(TypeError, match="test_kernels.first_of_two must be called with 2 arguments, but is with 3"):
         execute(first_of_two, 1.0, 2.0, 3.0)
