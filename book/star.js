@@ -69,7 +69,7 @@ class Star {
     const { data: { valence, red }, star, redIsGood } = this;
     const parameters = structuredClone(this.data.parameters);
     if (!withStar) return parameters;
-    for (const e of red) parameters.desires.valence[e] = redIsGood ? 1 : -1;
+    for (const e of red) parameters.desires[e].valence = redIsGood ? 1 : -1;
     const source = this.data._layout.plane.enumerations.Source.place;
     parameters.names.forEach((_, n) => addElement(parameters, n, source, { ...star, valence }));
     return parameters;

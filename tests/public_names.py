@@ -26,8 +26,7 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
         "Kernel.compiled_for", "array", "arrays", "check_kernel", "fields", "full_name", "function", "function_of",
         "inlined", "inlined_kernel", "is_tuple", "length", "mapped", "new_tuple", "tabled")),
     *(f"core.modality.{name}" for name in (
-        "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "check_faults", "firsts", "integers",
-        "space_of")),
+        "Modality.check_axes", "as_radians", "as_turns", "check_faults", "choices_of", "space_of")),
     "gym.vector.VectorWorldEnv.advance",
     "agents.papers.paper_agent", "core.calls.execute", "core.kernel.announcing", "core.kernel.jit_is_off",
     "core.scene.checked_scene", "worlds.world.check_arrays",

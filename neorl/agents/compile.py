@@ -12,12 +12,12 @@ from neorl import checks
 from neorl.agents.agent import FIRST_WORTH, LEARNED, Place
 from neorl.beyond import contacts
 from neorl.core import displacement, life
-from neorl.core.building import firsts, new_agent
+from neorl.core.building import new_agent
 from neorl.core.called import Calls, Life, Own, choice, features, no_credit
 from neorl.core.calls import interpret
 from neorl.core.choices import Credit, MapState, Source, UpdateOn, Weighting
 from neorl.core.derived import most_passed
-from neorl.core.modality import as_turns, axis_parameters, integers
+from neorl.core.modality import as_turns, choices_of
 from neorl.core.record import ENTRIES
 from neorl.core.policy import greedy
 
@@ -85,32 +85,25 @@ def n_bytes(agent, world):
 def chosen(agent, world):
     """What an agent's record is made of, see `neorl.core.building`."""
     _check_meeting(agent, world)
-    names, n_axes = [node.name for node in agent.nodes], world.actions.axes
-    modalities = [node.modality for node in agent.nodes]
-    choices = axis_parameters(modalities, n_axes)
-    choices["nodes"] |= {"learns_contacts": np.array([node.goals == "contacts" for node in agent.nodes], np.bool_),
-                         "state": integers(MapState[node.state.replace(" ", "_")] for node in agent.nodes),
-                         "ends": np.array([node.beyond == "none" for node in agent.nodes], np.bool_),
-                         "reach": np.array([node.reach for node in agent.nodes]),
-                         "weighting": integers(Weighting[node.weighting] for node in agent.nodes),
-                         "gain": np.array([node.gain for node in agent.nodes]),
-                         "first_map": firsts(len(node.resolutions) for node in agent.nodes),
-                         "order": integers(names.index(name) for name in agent.evaluation_order)}
-    mirrored = [modality.name for modality in modalities if modality.mirrored]
-    frames = (_frames(world.actions, mirrored[0]) if mirrored else
-              np.arange(len(world.actions.names), dtype=np.int64).reshape(1, -1))
-    coordinates = max([n_axes, *(len(modality.axes) for modality in modalities)])
-    choices |= {
+    names, actions = [node.name for node in agent.nodes], world.actions
+    nodes = [choices | {
+        "learns_contacts": node.goals == "contacts", "state": MapState[node.state.replace(" ", "_")],
+        "ends": node.beyond == "none", "reach": node.reach, "weighting": Weighting[node.weighting], "gain": node.gain,
+        "resolutions": node.resolutions} for node, choices in zip(agent.nodes, choices_of(
+            [node.modality for node in agent.nodes]))]
+    mirrored = [node.modality.name for node in agent.nodes if node.modality.mirrored]
+    frames = (_frames(actions, mirrored[0]) if mirrored else
+              np.arange(len(actions.names), dtype=np.int64).reshape(1, -1))
+    return {
         "size": float(world.size), "own_cell_counts": agent.own_cell == "counts",
         "shared_cell_counts_once": agent.shared_cell == "once", "notices_resets": agent.resets == "noticed",
-        "push": np.array(world.actions.pushes, float), "frames": frames,
-        "maps": {"resolution": integers(n for node in agent.nodes for n in node.resolutions)},
-        "desires": _desires(agent, world, coordinates),
+        "push": np.array(actions.pushes, float), "frames": frames,
+        "nodes": nodes, "order": [names.index(name) for name in agent.evaluation_order],
+        "desires": [_desire(agent, world, desire, names) for desire in agent.desires],
         "learning": _learning(agent.learning, world.fps), "contacts": _contacts(agent, world.fps),
         "policy": {"exploration": agent.policy.exploration,
                    "indifferent_is_no_op": agent.policy.when_indifferent == "no-op",
-                   "is_greedy": agent.policy.choose is greedy, "last": len(world.actions.all_names) - 1}}
-    return choices
+                   "is_greedy": agent.policy.choose is greedy, "last": len(actions.all_names) - 1}}
 
 
 def _check_meeting(agent, world):
@@ -139,36 +132,21 @@ def _check_meeting(agent, world):
                            agent.policy.when_indifferent)
 
 
-def _desires(agent, world, coordinates):
-    names, desires = [node.name for node in agent.nodes], agent.desires
-    elements = [[desire.source == other.target and (not desire.of or other.source in desire.of) for other in desires]
-                for desire in desires]
-    at = np.zeros((len(desires), coordinates))
-    for e, desire in enumerate(desires):
-        if isinstance(desire.source, Place):
-            at[e, : world.actions.axes] = desire.source.coordinates
-        elif not isinstance(desire.source, str):
-            at[e, : len(desire.source)] = as_turns(agent.nodes[names.index(desire.target)].modality, desire.source)[0]
-    return {"source": integers(_source(agent, desire) for desire in desires),
-            "kind": integers(world.kinds.index(desire.source) if desire.source in world.kinds else -1
-                             for desire in desires),
-            "target": integers(names.index(desire.target) for desire in desires),
-            "valence": np.array([FIRST_WORTH if desire.valence == LEARNED else desire.valence or 0.0
-                                 for desire in desires], float),
-            "learned": np.array([desire.valence == LEARNED for desire in desires], np.bool_),
-            "sums_valence": np.array([desire.valence is None for desire in desires], np.bool_),
-            "scale": np.array([desire.scale for desire in desires], float),
-            "signed": np.array([desire.signed for desire in desires], np.bool_),
-            "elements": np.array(elements, np.bool_).reshape(len(desires), len(desires)),
-            "at": at}
-
-
-def _source(agent, desire):
-    if isinstance(desire.source, Place):
-        return Source.place
-    if not isinstance(desire.source, str):
-        return Source.point
-    return Source.node if agent.comes_from_node(desire) else Source.kind
+def _desire(agent, world, desire, names):
+    """The choices of a desire. names: of the nodes."""
+    source, target, place, point = desire.source, names.index(desire.target), [0.0] * world.actions.axes, []
+    if isinstance(source, Place):
+        kind, place = Source.place, source.coordinates
+    elif not isinstance(source, str):
+        kind, point = Source.point, as_turns(agent.nodes[target].modality, source)[0].tolist()
+    else:
+        kind = Source.node if agent.comes_from_node(desire) else Source.kind
+    return {"source": kind, "kind": world.kinds.index(source) if source in world.kinds else -1, "target": target,
+            "valence": FIRST_WORTH if desire.valence == LEARNED else desire.valence or 0.0,
+            "learned": desire.valence == LEARNED, "sums_valence": desire.valence is None, "scale": desire.scale,
+            "signed": desire.signed, "place": place, "point": point,
+            "elements": [e for e, other in enumerate(agent.desires)
+                         if source == other.target and (not desire.of or other.source in desire.of)]}
 
 
 def _learning(learning, fps):

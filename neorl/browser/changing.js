@@ -46,16 +46,11 @@ function copy(to, from) {
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
-function mapKeys({ names, maps, nodes, axes, learning }) {
-  return maps.resolution.map((each, m) => {
-    const n = nodeOf(nodes.first_map, m);
-    const [first, end] = [nodes.first_axis[n], nodes.first_axis[n + 1]];
-    const space = ["what", "low", "high"].map((name) => axes[name].slice(first, end));
-    space.push(axes.boundary.slice(axes.first_boundary[first], axes.first_boundary[end]));
-    const landmarks = nodes.landmark.slice(nodes.first_landmark[n], nodes.first_landmark[n + 1]);
-    const kinds = [nodes.learns_contacts, nodes.state, nodes.ends].map((kind) => kind[n]);
-    const memory = isOfSelf({ nodes }, m) ? learning.memory_retained : learning.memory_retained > 0;
-    return JSON.stringify([names[n], kinds, each, memory, space, landmarks]);
+function mapKeys({ names, nodes, learning }) {
+  return nodes.flatMap((node, n) => {
+    const { learns_contacts: learnsOf, state, ends, axes, landmarks, resolutions } = node;
+    const memory = isOfSelf(node) ? learning.memory_retained : learning.memory_retained > 0;
+    return resolutions.map((cells) => JSON.stringify([names[n], learnsOf, state, ends, cells, memory, axes, landmarks]));
   });
 }
 
@@ -80,10 +75,10 @@ const placeOf = ({ learning: { bootstrap } }, cells, actions) => (state, action,
 
 /** The values of a map of an old run, reordered as in the present run. */
 function reordered(values, old, m) {
-  const { choices: { nodes }, agent: { maps } } = old;
-  const isSquare = !nodes.learns_contacts[nodeOf(nodes.first_map, m)] && !isOfSelf(old.choices, m);
+  const node = nodeOf(old, m);
+  const isSquare = !node.learns_contacts && !isOfSelf(node);
   if (old.choices.learning.bootstrap === run.choices.learning.bootstrap || !isSquare) return values;
-  const [{ cells }, { actions }] = [maps[m], old.sizes];
+  const [{ cells }, { actions }] = [old.agent.maps[m], old.sizes];
   const [before, now] = [old, run].map((each) => placeOf(each.choices, cells, actions));
   const moved = values.slice();
   for (let at = 0; at < moved.length; at += 1) {

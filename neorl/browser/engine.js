@@ -60,44 +60,42 @@ function newAgent(machine, sizes, laid) {
 
 /** What `neorl.core.building` makes of choices: the fields of an agent's record, arrays of its memory, and sizes. */
 function laidOut(choices) {
-  const { nodes, maps, axes, desires, frames, push } = choices;
-  const { Source } = layout.enumerations;
-  const row = (columns, index) => Object.fromEntries(Object.entries(columns).map(([name, column]) =>
-    [name, column[index]]));
-  const lengthAt = (begins, index) => begins[index + 1] - begins[index];
-  const isPoint = desires.source.map((source) => source === Source.point);
-  const elements = desires.elements.map((among) => among.flatMap((is, e) => (is ? [e] : [])));
-  const points = desires.at.map((at, e) => at.slice(0, isPoint[e] ? lengthAt(nodes.first_axis, desires.target[e]) : 0));
-  const goals = desires.target.map((n, e) => (isPoint[e] ? lengthAt(nodes.first_map, n) : 0));
-  const [firstElement, firstPoint] = [elements, points].map((lists) => firsts(lists.map(({ length }) => length)));
-  const firstGoal = firsts(goals);
+  const { nodes, order, frames, push } = choices;
+  const axes = nodes.flatMap((node) => node.axes);
+  const desires = choices.desires.map((desire) =>
+    ({ ...desire, goals: desire.point.length ? nodes[desire.target].resolutions : [] }));
   const tables = {
-    nodes: nodes.follows.map((_, n) => ({ ...row(nodes, n), end_map: nodes.first_map[n + 1],
-      axes: lengthAt(nodes.first_axis, n), landmarks: lengthAt(nodes.first_landmark, n) })),
-    maps: maps.resolution.map((resolution, m) => ({ resolution, node: nodeOf(nodes.first_map, m) })),
-    axes: axes.what.map(([vector, feature, along, cut, intervals], axis) => ({ ...row(axes, axis), vector, feature,
-      along, cut, intervals, end_boundary: axes.first_boundary[axis + 1] })),
-    desires: desires.source.map((_, e) => ({ ...row(desires, e), place: desires.at[e].slice(0, push[0].length),
-      first_element: firstElement[e], end_element: firstElement[e + 1], first_coordinate: firstPoint[e],
-      first_goal: firstGoal[e] })),
+    nodes: withPlaces(nodes, { map: "resolutions", axis: "axes", landmark: "landmarks" }),
+    maps: nodes.flatMap(({ resolutions }, node) => resolutions.map((resolution) => ({ resolution, node }))),
+    axes: withPlaces(axes, { boundary: "boundaries" }),
+    desires: withPlaces(desires, { element: "elements", coordinate: "point", goal: "goals" }),
   };
   const chosen = Object.fromEntries(CHOSEN.map((name) => [name, choices[name]]));
   const counts = Object.fromEntries(Object.entries(tables).map(([name, { length }]) => [`n_${name}`, length]));
   if (Math.max(...Object.values(counts)) > layout.rows) {
     throw new Refusal(`An agent in a page can have ${layout.rows} nodes, maps, axes and desires. Choose fewer.`);
   }
-  const memory = { points: points.flat(), elements: elements.flat(), boundary: axes.boundary,
-    landmark: nodes.landmark.flat(), frames: frames.flat() };
+  const [points, elements] = ["point", "elements"].map((name) => desires.flatMap((desire) => desire[name]));
+  const boundary = axes.flatMap(({ boundaries }) => boundaries);
+  const landmarks = nodes.flatMap((node) => node.landmarks);
   return {
-    agent: { ...counts, ...tables, ...chosen, push, order: nodes.order }, memory,
-    sizes: { coordinates: memory.points.length, elements: memory.elements.length, goals: firstGoal.at(-1),
-      cuts: maps.resolution.reduce((sum, _, m) => sum + lengthAt(nodes.first_axis, nodeOf(nodes.first_map, m)), 0),
-      boundaries: axes.boundary.length, landmarks: nodes.landmark.length, frames: frames.length },
+    agent: { ...counts, ...tables, ...chosen, push, order },
+    memory: { points, elements, boundary, landmark: landmarks.flat(), frames: frames.flat() },
+    sizes: { coordinates: points.length, elements: elements.length, boundaries: boundary.length,
+      landmarks: landmarks.length, frames: frames.length, goals: desires.flatMap(({ goals }) => goals).length,
+      cuts: tables.nodes.reduce((sum, node) => sum + node.resolutions * node.axes, 0) },
   };
 }
 
-/** Where each of several lists of given lengths begins, one after the other, and where the last ends. */
-const firsts = (lengths) => lengths.reduce((begins, length) => [...begins, begins.at(-1) + length], [0]);
+/** Rows with the length in place of each list, and where it begins and ends among those of all rows. */
+function withPlaces(rows, names) {
+  const ends = {};
+  return rows.map((row) => Object.entries(names).reduce((placed, [one, several]) => {
+    const first = ends[one] ?? 0;
+    ends[one] = first + row[several].length;
+    return { ...placed, [several]: row[several].length, [`first_${one}`]: first, [`end_${one}`]: ends[one] };
+  }, row));
+}
 
 const call = (name, more = {}) => run.machine.call(name, { ...run.sizes, ...more }, { ...run, ...more });
 
@@ -123,18 +121,18 @@ function begin(request) {
 
 /** Show a map, or, if there is none of that name, one whose cells are large enough to click. */
 function lookAt(choice) {
-  const { maps: { resolution }, nodes: { first_map } } = run.choices;
   const names = mapNames(run.choices);
   look = { ...look, ...choice };
   if (names.includes(look.map)) return;
-  const large = resolution.findLastIndex((each, m) => m < first_map[1] && each <= 7);
+  const large = run.choices.nodes[0].resolutions.findLastIndex((cells) => cells <= 7);
   Object.assign(look, { map: names[Math.max(0, large)], goal: null });
 }
 
-const nodeOf = (firstMaps, m) => firstMaps.findLastIndex((first) => first <= m);
+/** The choices of the node that has a map of a run. */
+const nodeOf = ({ choices, agent }, m) => choices.nodes[agent.maps[m].node];
 
-function mapNames({ names, maps, nodes }) {
-  return maps.resolution.map((each, m) => `${names[nodeOf(nodes.first_map, m)]} N${each}`);
+function mapNames({ names, nodes }) {
+  return nodes.flatMap(({ resolutions }, n) => resolutions.map((cells) => `${names[n]} N${cells}`));
 }
 
 /** How a map cuts the axes of its node. */
@@ -150,42 +148,36 @@ const shapeOf = (m) => cutsOf(m).map(({ last }) => last + 1).join(" × ");
 const nameOf = (enumeration, number) =>
   Object.entries(layout.enumerations[enumeration]).find(([, each]) => each === Number(number))[0];
 
-const learnsContacts = (m) => run.choices.nodes.learns_contacts[nodeOf(run.choices.nodes.first_map, m)];
+const learnsContacts = (m) => nodeOf(run, m).learns_contacts;
 
-/** Whether the state of a map is the self, always in the centre, so that each cell is a goal with values of its own. */
-function isOfSelf({ nodes }, m) {
-  return nodes.state[nodeOf(nodes.first_map, m)] !== layout.enumerations.MapState.object;
-}
+/** Whether the state of a node is the self, always in the centre: each cell is then a goal with values of its own. */
+const isOfSelf = ({ state }) => state !== layout.enumerations.MapState.object;
 
 /** The map that is shown, as it is drawn, and the way to the goal chosen in it. */
 function seen(m) {
-  const { follows, ends, first_map } = run.choices.nodes;
-  const vector = nameOf("Vector", follows[nodeOf(first_map, m)]);
+  const node = nodeOf(run, m);
+  const vector = nameOf("Vector", node.follows);
   if (learnsContacts(m)) return { name: look.map, vector, axes: [], goal: null, ways: null }; // its cells are not goals
   return {
-    name: look.map, vector, axes: axesOf(m), ends: ends[nodeOf(first_map, m)], ofSelf: isOfSelf(run.choices, m),
-    goal: look.goal,
+    name: look.map, vector, axes: axesOf(m), ends: node.ends, ofSelf: isOfSelf(node), goal: look.goal,
     ways: look.goal === null ? null : valueFunction(m, look.goal),
   };
 }
 
 /** How a map divides the axes of the vector that its node follows: other axes cannot be drawn in the world. */
 function axesOf(m) {
-  const { nodes, axes } = run.choices;
-  const [n, cuts] = [nodeOf(nodes.first_map, m), cutsOf(m)];
-  const [first, end] = [nodes.first_axis[n], nodes.first_axis[n + 1]];
-  return axes.what.slice(first, end).flatMap(([vector, feature, along, cut], axis) => {
-    const { low, scale, last, stride } = cuts[axis];
-    const inner = axes.boundary.slice(axes.first_boundary[first + axis], axes.first_boundary[first + axis + 1]);
-    const borders = nameOf("Cut", cut) === "boundaries" ? [axes.low[first + axis], ...inner, axes.high[first + axis]]
-      : Array.from({ length: last + 2 }, (_, index) => low + index / scale);
-    if (nodes.ends[n] && nameOf("Cut", cut) === "centred") { // half of either outermost interval is beyond the range
-      Object.assign(borders, { 0: axes.low[first + axis], [last + 1]: axes.high[first + axis] });
+  const [{ axes, ends, follows }, cuts] = [nodeOf(run, m), cutsOf(m)];
+  return axes.flatMap(({ vector, feature, along, cut, low, high, boundaries }, axis) => {
+    const { low: first, scale, last, stride } = cuts[axis];
+    const borders = nameOf("Cut", cut) === "boundaries" ? [low, ...boundaries, high]
+      : Array.from({ length: last + 2 }, (_, index) => first + index / scale);
+    if (ends && nameOf("Cut", cut) === "centred") { // half of either outermost interval is beyond the range
+      Object.assign(borders, { 0: low, [last + 1]: high });
     }
     const isBearing = nameOf("Vector", vector) === "own"; // the only user-defined axis in a module
-    if (vector !== nodes.follows[n] && !isBearing) return [];
+    if (vector !== follows && !isBearing) return [];
     return [{ feature: isBearing ? "bearing" : nameOf("Feature", feature), along, stride, borders,
-      closed: nameOf("Cut", cut) === "closed", high: axes.high[first + axis] }];
+      closed: nameOf("Cut", cut) === "closed", high }];
   });
 }
 
@@ -264,8 +256,7 @@ function frame(steps = 0) {
     trail: run.trail, round: false, obstacles: [], ...VIEWS[world.name](run),
     player: player && { ...body(second), reward: player.reward },
     hits: world.kinds.map((kind, k) => ({ kind, counts: run.hits.filter((_, i) => i % world.kinds.length === k) })),
-    wants: choices.desires.kind.flatMap((kind, e) =>
-      (kind < 0 ? [] : [{ kind: world.kinds[kind], valence: choices.desires.valence[e] }])),
+    wants: choices.desires.flatMap(({ kind, valence }) => (kind < 0 ? [] : [{ kind: world.kinds[kind], valence }])),
     active: learnsContacts(m) ? [] : rowsOf(memory.tracks, "TRACK", from, to).map(({ cell }) => cell),
     nodes: choices.names.map((name, n) => ({ name, ...desire(n) })),
     landings: choices.edges.flatMap(({ source, target }, e) => (source === "" ? [] : [{
@@ -321,7 +312,7 @@ function heat(side) {
 function valueFunction(map, goal) {
   const { sizes: { actions }, memory: { q } } = run;
   const { first_value: first, cells } = run.agent.maps[map];
-  if (isOfSelf(run.choices, map)) return vectors(cells, (cell, action) => q[first + actions * cell + action]);
+  if (isOfSelf(nodeOf(run, map))) return vectors(cells, (cell, action) => q[first + actions * cell + action]);
   const place = placeOf(run.choices, cells, actions);
   return vectors(cells, (cell, action) => q[first + place(cell, action, goal)]);
 }

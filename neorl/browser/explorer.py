@@ -28,7 +28,7 @@ from neorl.agents.rules import Learning, Policy
 from neorl.browser import wasm
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
 from neorl.core.kernel import is_tuple
-from neorl.core.modality import MODALITIES, PLACE_CELL, axis_parameters
+from neorl.core.modality import MODALITIES, PLACE_CELL, choices_of
 from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
 from neorl.experiments.bins import bin_steps
@@ -343,17 +343,17 @@ def _without_ranges(modality):
 
 def _parameters(agent, world):
     """The chosen parameters, ready for JSON, and the names that the page shows."""
-    choices = chosen(agent, world)
     edges = [{"source": each.source if agent.comes_from_node(each) else "", "target": each.target, "of": list(each.of)}
              for each in agent.desires]
-    return _as_json(choices) | {"names": [node.name for node in agent.nodes], "edges": edges,
-                                "coordinates": choices["desires"]["at"].shape[1]}
+    return _as_json(chosen(agent, world)) | {"names": [node.name for node in agent.nodes], "edges": edges}
 
 
 def _as_json(values):
     values = values._asdict() if is_tuple(values) else values
     if isinstance(values, dict):
         return {name: _as_json(value) for name, value in values.items()}
+    if isinstance(values, list | tuple):
+        return [_as_json(value) for value in values]
     return values.tolist() if isinstance(values, np.ndarray | np.generic) else values
 
 
@@ -371,6 +371,6 @@ def _band(result):
 
 def _modalities():
     """The parameters of a node of each modality, by name, and whether its state can be chosen."""
-    return {each.name: _as_json(axis_parameters([each], WaterWorld.actions.axes)) | {
+    return {each.name: {"node": _as_json(choices_of([each])[0]),
                 "stated": _stated([Node(each.name, each, [1])], Learning(), WaterWorld()) == [0]}
             for each in MODALITIES if each.takes_places}

@@ -16,7 +16,7 @@ function initialSettings(presets, key) {
 /** Whether the reader has chosen another modality than the preset's, which may have ranges of its own. */
 function hasOtherModality({ nodes, modality, parameters }, settings) {
   return nodes.length === 1 && settings.modality !== "" && settings.modality !== modality
-    && !parameters.nodes.learns_contacts[0];
+    && !parameters.nodes[0].learns_contacts;
 }
 
 /** The nodes of Cartesian object vectors, whose state can be chosen. */
@@ -29,33 +29,29 @@ function statedNodes(preset, modalities, settings) {
 function chosenParameters(layout, presets, modalities, settings, elements = []) {
   const preset = presets[settings.preset];
   const parameters = structuredClone(preset.parameters);
-  const { names, maps, nodes, axes, desires, learning, policy } = parameters;
+  const { nodes, desires, learning, policy } = parameters;
   if (settings.resolutions.join() !== preset.resolutions.join()) { // the preset's may differ between nodes
-    maps.resolution = names.flatMap(() => settings.resolutions);
-    nodes.first_map = [0, ...names.map((_, n) => (n + 1) * settings.resolutions.length)];
+    for (const node of nodes) node.resolutions = [...settings.resolutions];
   }
   if (hasOtherModality(preset, settings)) {
-    Object.assign(nodes, modalities[settings.modality].nodes);
-    Object.assign(axes, modalities[settings.modality].axes);
-    parameters.coordinates = Math.max(parameters.push[0].length, axes.what.length);
-    desires.at = desires.at.map((at) => padded(at, parameters.coordinates));
+    Object.assign(nodes[0], modalities[settings.modality].node);
     rename(parameters, settings.modality); // so that its maps are named after the new modality
   }
   const { MapState } = layout.enumerations;
   for (const n of statedNodes(preset, modalities, settings)) {
-    nodes.state[n] = MapState[(settings.object_state || "object").replace(" ", "_")];
-    if (nodes.state[n] !== MapState.object) nodes.reach[n] = 0;
+    nodes[n].state = MapState[(settings.object_state || "object").replace(" ", "_")];
+    if (nodes[n].state !== MapState.object) nodes[n].reach = 0;
   }
-  nodes.gain = [...settings.gains];
+  nodes.forEach((node, n) => Object.assign(node, { gain: settings.gains[n] }));
   policy.exploration = settings.exploration;
   learning.learning_rate = Math.fround(settings.learning_rate);
   learning.discount = Math.fround(settings.discount);
   learning.memory_retained = Math.fround(settings.memory / (1 + settings.memory));
-  for (const e of preset.red) desires.valence[e] = settings.valence_red;
-  for (const e of preset.recurring) desires.valence[e] = settings.recursion;
+  for (const e of preset.red) desires[e].valence = settings.valence_red;
+  for (const e of preset.recurring) desires[e].valence = settings.recursion;
   const source = layout.enumerations.Source.place;
   for (const element of elements) {
-    nodes.gain.forEach((gain, n) => gain !== 0 && addElement(parameters, n, source, element));
+    nodes.forEach(({ gain }, n) => gain !== 0 && addElement(parameters, n, source, element));
   }
   return parameters;
 }
@@ -69,19 +65,14 @@ function rename({ names, edges }, name) {
   names[0] = name;
 }
 
-/** A point extended with zeros to this number of coordinates. */
-function padded(point, coordinates) {
-  return Array.from({ length: coordinates }, (_, axis) => point[axis] ?? 0);
-}
-
-function addElement({ names, edges, desires, coordinates }, target, source, { x, y, valence }) {
+function addElement({ names, edges, desires, push }, target, source, { x, y, valence }) {
   const name = names[target];
-  desires.elements.forEach((row, e) => row.push(edges[e].source === name && edges[e].of.length === 0));
-  desires.elements.push(desires.elements.length ? desires.elements[0].map(() => false) : [false]);
+  desires.forEach(({ elements }, e) => {
+    if (edges[e].source === name && edges[e].of.length === 0) elements.push(desires.length);
+  });
   edges.push({ source: "", target: name, of: [] });
-  const desire = { source, kind: -1, target, valence, sums_valence: false, scale: 1, signed: false,
-    at: padded([x, y], coordinates) };
-  for (const [field, value] of Object.entries(desire)) desires[field].push(value);
+  desires.push({ source, kind: -1, target, valence, learned: false, sums_valence: false, scale: 1, signed: false,
+    place: push[0].map((_, axis) => [x, y][axis] ?? 0), point: [], elements: [] });
 }
 
 /** The key of the page's condition with the agent and the world of these settings, or null. */

@@ -8,7 +8,7 @@ const OFFERED = { red: "Only an agent that avoids red creeps can come to desire 
 
 /** Which things to try a preset offers. */
 function offersOf({ avoided, n_creeps, parameters: { nodes } }) {
-  return { watch: true, red: avoided === "red", corner: !nodes.learns_contacts.every(Boolean),
+  return { watch: true, red: avoided === "red", corner: !nodes.every((node) => node.learns_contacts),
     game: n_creeps !== null };
 }
 
@@ -79,9 +79,9 @@ class Starters extends Hands {
   }
 
   mapOfPlaces() {
-    const { names, nodes: { follows } } = this.parameters();
+    const { names, nodes } = this.parameters();
     const { position } = this.model.get("_layout").plane.enumerations.Vector;
-    const name = names[Math.max(0, follows.indexOf(position))];
+    const name = names[Math.max(0, nodes.findIndex(({ follows }) => follows === position))];
     const resolutions = this.model.get("resolutions");
     const near = resolutions.toSorted((a, b) => Math.abs(a - FINE_ENOUGH) - Math.abs(b - FINE_ENOUGH))[0];
     return `${name} N${near}`;

@@ -64,7 +64,7 @@ class Tour extends Beside {
     const { presets, model } = this;
     const preset = [model.get("preset"), ...orderedKeys(presets)].find((key) => {
       const { steps, avoided, parameters: { nodes } } = presets[key] ?? { parameters: {} };
-      return steps > 2 * LEARNED && avoided === "red" && !nodes.learns_contacts.some(Boolean);
+      return steps > 2 * LEARNED && avoided === "red" && !nodes.some((node) => node.learns_contacts);
     });
     this.fresh({ ...initialSettings(presets, preset), seed: presets[preset].seed, playing: false });
   }

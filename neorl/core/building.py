@@ -1,13 +1,12 @@
-"""An agent's record and memory, from its choices: {name: value, or {name: column of a table}}.
+"""An agent's record and memory, from its choices, which are those of `neorl.agents.compile.chosen`.
 
-The choices are those of `neorl.agents.compile.chosen`, in which lists of different lengths follow one another, with the
-places where each begins, and where the last ends; ``engine.js`` does the same in a page.
+They have a dict for each node, with its axes, and for each desire: rows of the record's tables. Lists of different
+lengths in them become parts of one array, and the rows tell where each begins. ``engine.js`` does the same in a page.
 """
 
 import numpy as np
 
 from neorl.core.calls import interpret
-from neorl.core.choices import Source
 from neorl.core.derived import begin_values, derive
 from neorl.core.kernel import fields, kernel, new_tuple
 from neorl.core.learning import order_of, place_of, values_of
@@ -15,7 +14,6 @@ from neorl.core.record import Memory, Record, agent_type, rows_for
 
 TABLES = ("nodes", "maps", "axes", "desires")
 WITHOUT_VALUES = ("cuts", "points", "goals", "elements", "boundary", "landmark", "frames")
-OF_AN_AXIS = ("vector", "feature", "along", "cut", "intervals")  # the columns of choices["axes"]["what"]
 
 
 def new_agent(choices, n_things):
@@ -27,33 +25,31 @@ def new_agent(choices, n_things):
 
 def laid_out(choices):
     """The same, before anything is derived."""
-    nodes, axes, desires, push = (choices[name] for name in ("nodes", "axes", "desires", "push"))
-    first_map, first_axis = nodes["first_map"], nodes["first_axis"]
-    source, target = desires["source"], desires["target"]
-    elements = [np.flatnonzero(row) for row in desires["elements"]]
-    coordinates = (source == Source.point) * np.diff(first_axis)[target]
-    goals = (source == Source.point) * np.diff(first_map)[target]
+    nodes, push = choices["nodes"], choices["push"]
+    axes = [axis for node in nodes for axis in node["axes"]]
+    landmarks = [place for node in nodes for place in node["landmarks"]]
+    desires = [desire | {"goals": nodes[desire["target"]]["resolutions"] if desire["point"] else ()}
+               for desire in choices["desires"]]
     tables = {
-        "nodes": nodes | begins_and_ends("map", first_map) | {
-            "first_axis": first_axis[:-1], "axes": np.diff(first_axis),
-            "first_landmark": nodes["first_landmark"][:-1], "landmarks": np.diff(nodes["first_landmark"])},
-        "maps": choices["maps"] | {"node": np.repeat(np.arange(len(nodes["follows"])), np.diff(first_map))},
-        "axes": axes | begins_and_ends("boundary", axes["first_boundary"]) | dict(zip(OF_AN_AXIS, axes["what"].T)),
-        "desires": desires | begins_and_ends("element", firsts(map(len, elements))) | {
-            "place": desires["at"][:, : push.shape[1]], "first_coordinate": firsts(coordinates)[:-1],
-            "first_goal": firsts(goals)[:-1]}}
-    counts = [len(nodes["follows"]), first_map[-1], first_axis[-1], len(source)]
-    agent = np.zeros((), agent_type(*push.shape, rows_for(max(counts))))
-    for table, count in zip(TABLES, counts):
-        agent["n_" + table] = count
-        fill(agent[table][:count], tables[table])
-    agent["order"][: counts[0]] = nodes["order"]
-    fill(agent, {name: value for name, value in choices.items() if name not in TABLES})
-    sizes = {"goals": goals.sum(), "cuts": (np.diff(first_map) * np.diff(first_axis)).sum()}
+        "nodes": with_places(nodes, map="resolutions", axis="axes", landmark="landmarks"),
+        "maps": [{"resolution": resolution, "node": n} for n, node in enumerate(nodes)
+                 for resolution in node["resolutions"]],
+        "axes": with_places(axes, boundary="boundaries"),
+        "desires": with_places(desires, element="elements", coordinate="point", goal="goals")}
+    agent = np.zeros((), agent_type(*push.shape, rows_for(max(map(len, tables.values())))))
+    for name, rows in tables.items():
+        agent["n_" + name] = len(rows)
+        for record, row in zip(agent[name], rows):
+            fill(record, row)
+    agent["order"][: len(nodes)] = choices["order"]
+    fill(agent, {name: value for name, value in choices.items() if name not in (*TABLES, "order")})
+    sizes = {"goals": sum(len(desire["goals"]) for desire in desires),
+             "cuts": sum(len(node["resolutions"]) * len(node["axes"]) for node in nodes)}
     return agent, new_memory(sizes | dict(zip(("actions", "axes"), push.shape)), {
-        "points": np.array([x for row, n in zip(desires["at"], coordinates) for x in row[:n]], float),
-        "elements": np.concatenate([np.zeros(0, np.int64), *elements]), "frames": choices["frames"],
-        "boundary": axes["boundary"], "landmark": nodes["landmark"]})
+        "points": joined(float, [desire["point"] for desire in desires]),
+        "elements": joined(np.int64, [desire["elements"] for desire in desires]), "frames": choices["frames"],
+        "boundary": joined(float, [axis["boundaries"] for axis in axes]),
+        "landmark": joined(float, landmarks).reshape(-1, push.shape[1])})
 
 
 def with_values(agent, memory, q=None):
@@ -74,23 +70,29 @@ def new_memory(sizes, arrays):
     return new_tuple(Memory, dict.fromkeys(names, 0) | sizes, arrays)
 
 
-def fill(record, columns):
-    """Write the columns of a table, or the values of a record, that have the names of its fields."""
+def fill(record, values):
+    """Write the values that have the names of a record's fields into them."""
     for name in record.dtype.names:
-        if isinstance(columns.get(name), dict):
-            fill(record[name], columns[name])
-        elif name in columns:
-            record[name] = columns[name]
+        if isinstance(values.get(name), dict):
+            fill(record[name], values[name])
+        elif name in values:
+            record[name] = values[name]
 
 
-def begins_and_ends(name, begins):
-    """The columns of where each of several lists begins and ends. begins: also where the last one ends."""
-    return {f"first_{name}": begins[:-1], f"end_{name}": begins[1:]}
+def with_places(rows, **names):
+    """Rows of a table with the length in place of each list, and where it begins and ends among those of all rows.
+
+    names: of the lists, by that of one entry.
+    """
+    begins = {one: np.cumsum([0, *(len(row[several]) for row in rows)]) for one, several in names.items()}
+    return [row | {several: len(row[several]) for several in names.values()}
+            | {f"first_{one}": begins[one][r] for one in names} | {f"end_{one}": begins[one][r + 1] for one in names}
+            for r, row in enumerate(rows)]
 
 
-def firsts(counts):
-    """The start of each of several lists of given lengths, one after the other, and the end of the last: int64."""
-    return np.concatenate([[0], np.cumsum(np.array(list(counts), np.int64))]).astype(np.int64)
+def joined(dtype, lists):
+    """Lists one after the other, in an array."""
+    return np.array([value for values in lists for value in values], dtype)
 
 
 @kernel

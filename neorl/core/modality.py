@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
 from neorl.checks import OneOf, Within
-from neorl.core.building import firsts, new_agent
+from neorl.core.building import new_agent
 from neorl.core.called import Own, features
 from neorl.core.calls import execute, in_table
 from neorl.core.choices import Cut, Feature, MapState, Vector
@@ -299,51 +299,31 @@ def as_turns(modality, points):
 @functools.lru_cache(maxsize=64)
 def space_of(modality, resolution, n_axes=None, size=1.0):
     """The record of an agent of a single map, and its memory as `execute` passes it on; kept for loops of points."""
-    n_axes = n_axes or modality.least_axes
-    choices, none = axis_parameters([modality], n_axes), np.zeros(0, np.int64)
-    choices["nodes"] |= {"first_map": integers([0, 1]), "order": integers([0])}
-    agent, memory = new_agent(choices | {
-        "size": size, "push": np.zeros((1, n_axes)), "frames": np.zeros((0, 1), np.int64),
-        "maps": {"resolution": integers([resolution])},
-        "desires": {"source": none, "target": none, "elements": [], "at": np.zeros((0, n_axes)), "valence": none}}, 0)
+    n_axes, (node,) = n_axes or modality.least_axes, choices_of([modality])
+    agent, memory = new_agent({
+        "nodes": [node | {"resolutions": [resolution]}], "order": [0], "desires": [], "size": size,
+        "push": np.zeros((1, n_axes)), "frames": np.zeros((0, 1), np.int64)}, 0)
     return agent, in_table(memory)
 
 
-def axis_parameters(modalities, n_axes):
-    """The parameters of the modalities of all nodes, {"nodes": …, "axes": …}.
+def choices_of(modalities):
+    """The choices of all nodes that depend on their modalities, a list of dicts.
 
-    The choices of a node that depend on its modality are those of `Node()`: a map never ends, and its state is the
-    object.
+    The others among them are those of `Node()`: a map never ends, and its state is the object.
     """
-    axes = [axis for modality in modalities for axis in modality.axes]
-    own = [axis for axis in axes if callable(axis.of)]
-    inner = [axis.boundaries[1:-1] for axis in axes]
-    landmarks = [place for modality in modalities for place in modality.landmarks]
-    nodes = {"follows": integers(Vector[modality.follows] for modality in modalities),
-             "first_axis": firsts(len(modality.axes) for modality in modalities),
-             "first_landmark": firsts(len(modality.landmarks) for modality in modalities),
-             "mirrored": np.array([modality.mirrored for modality in modalities], np.bool_),
-             "landmark": np.array(landmarks, float).reshape(-1, n_axes),
-             "state": integers(MapState.object for _ in modalities), "ends": np.zeros(len(modalities), np.bool_),
-             "reach": np.zeros(len(modalities))}
-    return {"nodes": nodes, "axes": {
-        "what": np.array([_what(axis, own) for axis in axes], np.int64),
-        "low": np.array([axis.low for axis in axes]), "high": np.array([axis.high for axis in axes]),
-        "first_boundary": firsts(map(len, inner)), "boundary": np.array([each for one in inner for each in one], float),
-    }}
+    own = [axis for modality in modalities for axis in modality.axes if callable(axis.of)]
+    return [{"follows": Vector[modality.follows], "mirrored": modality.mirrored, "state": MapState.object,
+             "ends": False, "reach": 0.0, "landmarks": modality.landmarks,
+             "axes": [_choices_of_axis(axis, own) for axis in modality.axes]} for modality in modalities]
 
 
-def _what(axis, own):
-    """The row of an axis in `AxisParameters.what`. own: the axes with user-defined kernels."""
+def _choices_of_axis(axis, own):
+    """The choices of an axis. own: the axes with user-defined kernels."""
     cut = (Cut.boundaries if axis.boundaries else Cut.closed if axis.closed and not axis.is_direction else
            Cut.centred if axis.centred else Cut.equal)
     vector, along = (Vector.own, own.index(axis)) if callable(axis.of) else (Vector[axis.of], axis.along)
-    return vector, Feature[axis.feature], along, cut, axis.intervals or 0
-
-
-def integers(values):
-    """Values as an array of int64."""
-    return np.array([int(value) for value in values], np.int64)
+    return {"vector": vector, "feature": Feature[axis.feature], "along": along, "cut": cut,
+            "intervals": axis.intervals or 0, "low": axis.low, "high": axis.high, "boundaries": axis.boundaries[1:-1]}
 
 
 @kernel

@@ -1,6 +1,7 @@
 """The Explorer's engine, called directly, reports of a run exactly what Python computes."""
 
 import base64
+import copy
 import json
 from dataclasses import replace
 
@@ -246,10 +247,12 @@ def test_a_place_is_found_in_the_cell_that_it_lies_in(ask):
 
 def test_the_map_that_is_looked_at_stays_and_its_goal_with_it_if_it_has_the_same_cells(ask, state):
     parameters = state["_presets"]["D"]["parameters"]
-    axes = parameters["axes"]
-    finer = parameters | {"maps": {"resolution": [5, 6, 5, 6]}}
-    other = finer | {"axes": axes | {"low": [0.1, *axes["low"][1:]]}}
-    without = parameters | {"maps": {"resolution": [6, 9, 6, 9]}}
+    finer, other, without = (copy.deepcopy(parameters) for _ in range(3))
+    for node in (*finer["nodes"], *other["nodes"]):
+        node["resolutions"] = [5, 6]
+    for node in without["nodes"]:
+        node["resolutions"] = [6, 9]
+    other["nodes"][0]["axes"][0]["low"] = 0.1
     frames = ask({"type": "look", "map": "PC N5", "goal": 24}, *({"type": "change", "parameters": each} for each in (
         finer, other, without)))[1:]
     assert [(each["seen"]["name"], each["seen"]["goal"]) for each in frames] == [
