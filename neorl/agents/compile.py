@@ -21,6 +21,8 @@ from neorl.core.modality import as_turns, choices_of
 from neorl.core.record import ENTRIES
 from neorl.core.policy import greedy
 
+OF_SELF = displacement.begin_self, displacement.observe_self
+OF_CONTACTS = contacts.begin_contacts, contacts.observe_contacts, contacts.evaluate_contacts
 TRACE_STEPS = 64  # of the trace behind a contact; the contact's value, discounted over 1.3 s, is small
 
 
@@ -32,27 +34,16 @@ def compiled(agent, world):
     return new_agent(chosen(agent, world), world.things)
 
 
-def life_of(agent):
-    """The `Life` of an agent: the kernels that it calls, and None for those of which it has no need."""
-    whole = whole_life(agent)
-    of_self = any(node.state != "object" for node in agent.nodes)
-    of_contacts = any(node.goals == "contacts" for node in agent.nodes)
-    calls = {name: of_self if name.endswith("_self") else of_contacts for name in Calls._fields[1:]}
-    own = {"feature": own_axes(agent), "credit": callable(agent.learning.credit),
-           "choose": agent.policy.choose is not greedy}
-    return whole._replace(calls=_needed(whole.calls, calls)._replace(own=_needed(whole.calls.own, own)))
-
-
-def _needed(kernels, needed):
-    return kernels._replace(**{name: None for name, is_needed in needed.items() if not is_needed})
-
-
-def whole_life(agent):
-    """The same, with all kernels."""
-    credit = agent.learning.credit if callable(agent.learning.credit) else no_credit
-    own = Own(features(*own_axes(agent)), credit, choice(agent.policy.choose))
-    return Life(Calls(own, displacement.begin_self, displacement.observe_self, contacts.begin_contacts,
-                      contacts.observe_contacts, contacts.evaluate_contacts), life.begin, life.act, life.observe)
+def life_of(agent, whole=False):
+    """The `Life` of an agent: the kernels that it calls, and None for others unless it is to be whole."""
+    credit, axes = agent.learning.credit, own_axes(agent)
+    of_self = whole or any(node.state != "object" for node in agent.nodes)
+    of_contacts = whole or any(node.goals == "contacts" for node in agent.nodes)
+    own = Own(features(*axes) if whole or axes else None, credit if callable(credit) else no_credit if whole else None,
+              choice(agent.policy.choose) if whole or agent.policy.choose is not greedy else None)
+    calls = Calls(own, *(OF_SELF if of_self else [None] * len(OF_SELF)),
+                  *(OF_CONTACTS if of_contacts else [None] * len(OF_CONTACTS)))
+    return Life(calls, life.begin, life.act, life.observe)
 
 
 def own_axes(agent):

@@ -23,7 +23,7 @@ import numpy as np
 from neorl import checks
 from neorl.agents import beyond, papers, spaces
 from neorl.agents.agent import LEARNED, STATES, Agent, Desire, Node
-from neorl.agents.compile import chosen, whole_life
+from neorl.agents.compile import chosen, life_of
 from neorl.agents.rules import Learning, Policy
 from neorl.browser import wasm
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
@@ -258,7 +258,7 @@ def _check_condition(name, condition):
         raise checks.error(f"world of condition {name}", "one of the package's, to be shown in the Explorer",
                            condition.world)
     for each in (agent, *(later for _, later in condition.changes)):
-        if whole_life(each) != wasm.MODULES[_module_of(condition.world)].life:
+        if life_of(each, whole=True) != wasm.MODULES[_module_of(condition.world)].life:
             raise ValueError(f"condition {name} must have the kernels that are compiled for the page, with the greedy "
                              "choice, but has its own, for an axis, the credit or the choice of an action")
 

@@ -31,7 +31,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import files
-from neorl.agents.compile import whole_life
+from neorl.agents.compile import life_of
 from neorl.agents.individual import OF_A_MAP
 from neorl.agents.papers import brownian
 from neorl.agents.spaces import pilot
@@ -74,7 +74,7 @@ def _module(dynamics, agent, world, with_second):
     if with_second:
         exports, tuples = (*exports, step_second), (*tuples, WaterWorldState)
     record = agent_type(len(world.actions.names), world.actions.axes, ROWS)
-    return Module(dynamics, whole_life(agent), record, exports, tuples)
+    return Module(dynamics, life_of(agent, whole=True), record, exports, tuples)
 
 
 ROWS = 512  # in the tables of an agent in a page

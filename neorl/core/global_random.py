@@ -23,22 +23,22 @@ def global_random_in(function, seen=()):
         if _is_random(value):
             return name
         if inspect.isfunction(helper) and helper not in seen:
-            found = global_random_in(helper, seen)
-            if found:
-                return found
+            drawn = global_random_in(helper, seen)
+            if drawn:
+                return drawn
     return None
 
 
 def _used(code, known):
     """The known values that a function uses, and the attributes of modules among them: (name, value) pairs."""
     name, value, known = "", None, dict(known)
-    for each in dis.get_instructions(code):
-        if each.opname == "STORE_FAST" and value is not None:
-            known[each.argval] = value
-        if each.opname in ATTRIBUTES and isinstance(value, ModuleType):
-            name, value = f"{name}.{each.argval}", getattr(value, each.argval, None)
-        elif each.opname != "EXTENDED_ARG":
-            name, value = each.argval, known.get(each.argval) if each.opname in LOADS else None
+    for instruction in dis.get_instructions(code):
+        if instruction.opname == "STORE_FAST" and value is not None:
+            known[instruction.argval] = value
+        if instruction.opname in ATTRIBUTES and isinstance(value, ModuleType):
+            name, value = f"{name}.{instruction.argval}", getattr(value, instruction.argval, None)
+        elif instruction.opname != "EXTENDED_ARG":
+            name, value = instruction.argval, known.get(instruction.argval) if instruction.opname in LOADS else None
         if value is not None:
             yield name, value
     for inner in code.co_consts:

@@ -121,19 +121,19 @@ class Reading:
     def _function(self, value):
         function = getattr(value, "py_func", value)
         module, name = str(function.__globals__.get("__name__")), function.__qualname__
-        found = [(variable, self._watched(getattr, cell, "cell_contents")) for variable, cell in zip(
+        used = [(variable, self._watched(getattr, cell, "cell_contents")) for variable, cell in zip(
             function.__code__.co_freevars, function.__closure__ or ()) if cell != CellType()]  # an empty one
         if _is_known(module):
             arguments = self._of(getattr(value, "origin", (None, ()))[1])
-            return f"{module}:{name}{arguments}({self._named(found) if module.startswith(OURS) else ''})"
+            return f"{module}:{name}{arguments}({self._named(used) if module.startswith(OURS) else ''})"
         if hasattr(value, "targetoptions"):
             raise ValueError(NOT_OF_NUMBA.format(name, "jit"))
         self.functions.append(function)
         bytecode, defaults, by_name = (self._watched(getattr, function, f"__{part}__")
                                        for part in ("code", "defaults", "kwdefaults"))
         code, of_globals, attributes = _read(bytecode)
-        found += [(each, self._watched(_global, function.__globals__, each)) for each in of_globals]
-        modules = [(each, module) for each, module in found if isinstance(module, ModuleType)]
+        used += [(global_name, self._watched(_global, function.__globals__, global_name)) for global_name in of_globals]
+        modules = [(each, module) for each, module in used if isinstance(module, ModuleType)]
         for path, module in modules:  # which grows
             if _is_known(module.__name__):
                 for each in attributes:
@@ -141,13 +141,13 @@ class Reading:
                 continue
             for each in attributes:
                 if (attribute := self._watched(getattr, module, each, MISSING)) is not MISSING:
-                    found.append((f"{path}.{each}", attribute))
+                    used.append((f"{path}.{each}", attribute))
                     if isinstance(attribute, ModuleType) and all(attribute is not known for _, known in modules):
                         modules.append((f"{path}.{each}", attribute))
-        return f"{code}{self._of((defaults, by_name))}({self._named(found)})"
+        return f"{code}{self._of((defaults, by_name))}({self._named(used)})"
 
-    def _named(self, found):
-        return ", ".join(f"{name}={self._of(each)}" for name, each in found)
+    def _named(self, used):
+        return ", ".join(f"{name}={self._of(each)}" for name, each in used)
 
     def _object(self, value):
         content = (self._named((each.name, getattr(value, each.name)) for each in fields(value))

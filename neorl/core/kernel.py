@@ -96,11 +96,6 @@ class Kernel:
         """The dispatcher for calls from Python, and by the kernel's address."""
         return self._present("outer")
 
-    @property
-    def is_users(self):
-        """Whether the kernel depends on code of the user's."""
-        return bool(Reading(self).functions)
-
     def compiled_for(self, arguments, returns=None):
         """The `neorl.core.compiling.Compiled` for arguments of these numba types. returns: of its result, if given."""
         from neorl.core.compiling import compiled
@@ -329,17 +324,17 @@ def fields(kind):
     return {name: get_args(hint)[1:] or hint for name, hint in get_type_hints(kind, include_extras=True).items()}
 
 
-def new_tuple(kind, sizes, given):
-    """A named tuple of given values, {name: value, or a dict for a nested tuple}; other arrays are filled with 0."""
+def new_tuple(kind, sizes, known):
+    """A named tuple of known values, {name: value, or a dict for a nested tuple}; other arrays are filled with 0."""
     values = {}
     for name, field in fields(kind).items():
         if is_tuple(field):
-            values[name] = new_tuple(field, sizes, given.get(name, {}))
-        elif name in given:
-            values[name] = given[name]
+            values[name] = new_tuple(field, sizes, known.get(name, {}))
+        elif name in known:
+            values[name] = known[name]
         else:
             dtype, shape = field
-            values[name] = np.zeros([length(each, sizes) for each in shape], dtype)
+            values[name] = np.zeros([length(dimension, sizes) for dimension in shape], dtype)
     return kind(**values)
 
 
@@ -357,14 +352,14 @@ def mapped(function, values):
 
 def arrays(values):
     """The arrays of numbers in a named tuple or an array of records, by name, {"scene.position": array, …}."""
-    found = {}
+    by_name = {}
     for name in values._fields if is_tuple(values) else values.dtype.names:
         value = getattr(values, name) if is_tuple(values) else values[name]
         if is_tuple(value) or isinstance(value, np.ndarray) and value.dtype.names:
-            found |= {f"{name}.{inner}": array for inner, array in arrays(value).items()}
+            by_name |= {f"{name}.{inner}": array for inner, array in arrays(value).items()}
         elif isinstance(value, np.ndarray):
-            found[name] = value
-    return found
+            by_name[name] = value
+    return by_name
 
 
 def length(dimension, sizes):

@@ -54,7 +54,7 @@ def _where(function, line=None):
 
 def _named_in(text, functions):
     """The innermost function that numba's message names, by itself or by a line of it."""
-    found = {}
+    named = {}
     for function in functions:
         code = function.__code__
         lines = [line for *_, line in code.co_lines() if line and code.co_filename[:1] != "<"]
@@ -62,8 +62,8 @@ def _named_in(text, functions):
         at = [text.find(repr(function)), *(each.start() for each in re.finditer(rf"at {file} \((\d+)\)", text)
                                            if lines and min(lines) <= int(each[1]) <= max(lines))]
         if max(at) >= 0:
-            found[min(each for each in at if each >= 0)] = function
-    return [found[min(found)]] if found else []
+            named[min(place for place in at if place >= 0)] = function
+    return [named[min(named)]] if named else []
 
 
 def _called_in(text, kernel):

@@ -227,9 +227,9 @@ class Modality(checks.Final):
         n_axes = len(scene.position)
         self.check_axes(n_axes)
         points = {"objects": len(scene.things), "boundaries": 2 * n_axes, "landmarks": len(self.landmarks)}
-        found = np.zeros((points.get(self.follows, 1), len(self.axes)))
-        self._locate(size, scene, False, np.zeros((len(found), n_axes)), found)
-        return as_radians(self, found)
+        coordinates = np.zeros((points.get(self.follows, 1), len(self.axes)))
+        self._locate(size, scene, False, np.zeros((len(coordinates), n_axes)), coordinates)
+        return as_radians(self, coordinates)
 
     def tune(self, vectors: ArrayLike) -> NDArray[np.float64]:
         """The coordinates of vectors (…, axes of the world) for these cells: float64 (…, axes).
@@ -244,17 +244,17 @@ class Modality(checks.Final):
                              f"most, but has {vectors.shape}")
         self.check_axes(vectors.shape[-1])
         n_axes = vectors.shape[-1]
-        found = np.zeros((*vectors.shape[:-1], len(self.axes)))
+        coordinates = np.zeros((*vectors.shape[:-1], len(self.axes)))
         scene = new_tuple(Scene, {"axes": n_axes, "things": 0}, {})
-        self._locate(1.0, scene, True, vectors.reshape(-1, n_axes), found.reshape(-1, len(self.axes)))
-        return as_radians(self, found)
+        self._locate(1.0, scene, True, vectors.reshape(-1, n_axes), coordinates.reshape(-1, len(self.axes)))
+        return as_radians(self, coordinates)
 
-    def _locate(self, size, scene, given, vectors, found):
-        """Write the coordinates of all points into `found`; given: from their vectors instead of the scene."""
+    def _locate(self, size, scene, from_vectors, vectors, coordinates):
+        """Write the coordinates of all points into `coordinates`, from their vectors or from the scene."""
         uncut = replace(self, axes=[replace(axis, boundaries=()) for axis in self.axes])
         agent, memory = space_of(uncut, 1, len(scene.position), size)
         agent = agent.copy()  # which other threads write to, too
-        execute(locate_all, agent, memory, scene, Own(features(*self.functions)), given, vectors, found)
+        execute(locate_all, agent, memory, scene, Own(features(*self.functions)), from_vectors, vectors, coordinates)
         check_faults(agent["faults"], self.functions)
 
     def check_axes(self, n_axes: int) -> None:
@@ -327,15 +327,15 @@ def _choices_of_axis(axis, own):
 
 
 @kernel
-def locate_all(agent: Record, memory: Memory, scene: Scene, own: Own, given: bool,
-               vectors: array("float64", "points", "axes"), found: array("float64", "points", "coordinates")) -> None:
-    """Write the coordinates of points of the only node into `found`, see `neorl.core.geometry.locate`."""
-    for point in range(found.shape[0]):
+def locate_all(agent: Record, memory: Memory, scene: Scene, own: Own, from_vectors: bool, vectors: array(
+        "float64", "points", "axes"), coordinates: array("float64", "points", "coordinates")) -> None:
+    """Write the coordinates of points of the only node into `coordinates`, see `neorl.core.geometry.locate`."""
+    for point in range(coordinates.shape[0]):
         for axis in range(vectors.shape[1]):
             agent.offset[axis] = vectors[point, axis]
-        locate(agent, memory, scene, own, agent.nodes[0], point, given)
-        for i in range(found.shape[1]):
-            found[point, i] = agent.coordinates[i]
+        locate(agent, memory, scene, own, agent.nodes[0], point, from_vectors)
+        for i in range(coordinates.shape[1]):
+            coordinates[point, i] = agent.coordinates[i]
 
 
 # O'Keefe and Dostrovsky 1971; Solstad et al. 2008; Høydal et al. 2019 and, in its Cartesian emulation, paper B,

@@ -22,6 +22,7 @@ from numba.extending import (NativeValue, infer_getattr, lower_builtin, lower_ge
 from numba.np.arrayobj import make_array, populate_array
 
 from neorl import checks
+from neorl.core.identity import Reading
 from neorl.core.kernel import Record, fields, is_tuple
 
 WORD = ir.IntType(64)
@@ -54,7 +55,7 @@ class Table:
             return 0
         types_of_arguments = tuple(map(self._numba_type_.type_of, signature.arguments))
         compiled = kernel.compiled_for(types_of_arguments, SCALARS[signature.returns])
-        if kernel.is_users:
+        if Reading(kernel).functions:
             self._users.append((kernel, compiled.dispatcher))
         return compiled.library.get_pointer_to_function(compiled.name)
 
@@ -139,16 +140,8 @@ class Called(types.Callable):
         return Called
 
 
-@register_model(View)
-class ViewModel(models.PrimitiveModel):
-    def __init__(self, manager, kind):
-        super().__init__(manager, kind, WORD.as_pointer())
-
-
-@register_model(Called)
-class CalledModel(models.PrimitiveModel):
-    def __init__(self, manager, kind):
-        super().__init__(manager, kind, WORD)
+for pointer in View, Called:
+    register_model(pointer)(models.OpaqueModel)
 
 
 @unbox(View)
@@ -156,7 +149,7 @@ def _unboxed(kind, table, c):
     address = c.pyapi.object_getattr_string(table, "address")
     word = c.pyapi.long_as_longlong(address)
     c.pyapi.decref(address)
-    return NativeValue(c.builder.inttoptr(word, WORD.as_pointer()))
+    return NativeValue(c.builder.inttoptr(word, cgutils.voidptr_t))
 
 
 @infer_getattr
@@ -170,14 +163,16 @@ class ViewAttributes(AttributeTemplate):
 @lower_getattr_generic(View)
 def _attribute(context, builder, view, pointer, name):
     place, kind = _members(view)[name]
-    slot = builder.gep(pointer, [ir.Constant(WORD, place)])
+    slot = builder.gep(builder.bitcast(pointer, WORD.as_pointer()), [ir.Constant(WORD, place)])
     if isinstance(kind, View):
-        return slot
+        return builder.bitcast(slot, cgutils.voidptr_t)
     if isinstance(kind, types.Array):
         return _array(context, builder, kind, slot)
     if isinstance(kind, types.Record):
         return _loaded(builder, builder.bitcast(slot, context.get_value_type(kind).as_pointer()))
     word = _loaded(builder, slot)
+    if isinstance(kind, Called):
+        return builder.inttoptr(word, cgutils.voidptr_t)
     if kind == types.boolean:
         return builder.trunc(word, ir.IntType(1))
     if kind in (types.float32, types.float64):
@@ -207,7 +202,7 @@ def _array(context, builder, kind, address):
 @lower_builtin(Called, types.VarArg(types.Any))
 def _call(context, builder, sig, arguments):
     returns, kinds = sig.return_type, sig.args[1:]
-    code = builder.inttoptr(arguments[0], context.call_conv.get_function_type(returns, kinds).as_pointer())
+    code = builder.bitcast(arguments[0], context.call_conv.get_function_type(returns, kinds).as_pointer())
     status, result = context.call_conv.call_function(builder, code, returns, kinds, arguments[1:])
     with cgutils.if_unlikely(builder, status.is_error):
         context.call_conv.return_status_propagate(builder, status)

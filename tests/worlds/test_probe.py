@@ -6,7 +6,7 @@ from same import assert_same
 
 from neorl import (Agent, Node, NresMap, Run, WaterWorld, multimodal, network_d, object_vector_cells, place_cells,
                    superpose)
-from neorl.agents.compile import whole_life
+from neorl.agents.compile import life_of
 from neorl.core.calls import execute
 from neorl.core.kernel import mapped
 from neorl.core.modality import OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
@@ -14,7 +14,7 @@ from neorl.worlds.probe import cell_seen_at, step_second, survey
 from neorl.worlds.waterworld import GREEN, RED
 
 TANK = WaterWorld(n_creeps=5)
-CALLS = whole_life(place_cells()).calls
+CALLS = life_of(place_cells(), whole=True).calls
 
 
 def surveyed(run, side):
