@@ -1,11 +1,13 @@
 """The rules that every kernel follows, so that a run is the same everywhere."""
 
 import contextlib
+import pickle
 import random
 import re
 import sys
 from random import randrange
 
+import cloudpickle
 import numpy as np
 import pytest
 from numba import njit
@@ -205,6 +207,19 @@ def test_a_kernel_whose_helper_comes_to_draw_from_a_global_stream_is_refused_whe
 @kernel
 def first_of_two(one, other):
     return one
+
+
+@pytest.mark.parametrize("module", [cloudpickle, pickle])
+def test_a_kernel_remains_one_and_the_same_however_often_it_is_pickled(module, monkeypatch):
+    """Else a worker would compile it again for every condition."""
+    @kernel
+    def local(x):
+        return x
+
+    if module is pickle:  # which finds the kernels of the main program by name
+        local.__module__, local.__qualname__ = "__main__", "local"
+        monkeypatch.setattr(sys.modules["__main__"], "local", local, raising=False)
+    assert {pickle.loads(module.dumps(local)) for _ in range(2)} == {local}
 
 
 def test_a_disk_that_is_full_costs_time_alone(monkeypatch, tmp_path):
