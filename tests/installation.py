@@ -5,11 +5,10 @@
 First the wheel alone: README's first example prints what it says, every module either imports or names the extra that
 it needs, and the WebAssembly modules that the wheel carries are those of its sources. Then the wheel with `EXTRAS`: the
 tests in `FOLDERS`, with ARGUMENTS for pytest. All of this runs in another folder, so that the installation is tested.
-With VERSIONS=oldest in the environment, dependencies are of the oldest versions that ``pyproject.toml`` allows.
+With VERSIONS=oldest in the environment, what is installed is of the oldest versions that ``pyproject.toml`` allows.
 """
 
 import os
-import re
 import subprocess
 import sys
 import tempfile
@@ -46,9 +45,10 @@ print(f"without extras: README's example, and all modules but {', '.join(needing
 
 
 def oldest():
-    """The lower bounds of the dependencies, as pins."""
+    """The lower bounds of the dependencies, those of `EXTRAS` included, as pins."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    return [re.sub(">=", "==", each) for each in project["dependencies"] if ">=" in each]
+    extras = [each for extra in EXTRAS.split(",") for each in project["optional-dependencies"][extra]]
+    return [each.replace(">=", "==") for each in (*project["dependencies"], *extras) if ">=" in each]
 
 
 def main(wheel, *arguments):

@@ -1,28 +1,22 @@
 """How numba compiles kernels: linked into each other (`neorl.core.linking`), or else each by itself.
 
-The kernels of this package are cached on disk by numba, in a folder named by a digest of their source, of numba and of
-its settings: so the cache need not be cleared after a change. The user's kernels, and those with them within, are
-compiled in each process.
+The kernels of this package are cached on disk (`neorl.core.caching`). The user's kernels, and those with them within,
+are compiled in each process.
 """
 
-import contextlib
 import functools
 import hashlib
+import importlib
 import logging
 import os
-import sys
 from types import FunctionType
 from typing import Any, NamedTuple
 
-import llvmlite
 import numba
 
-from neorl import files
-from neorl.core.identity import ROOMS, can_cache, digest_of_source
-from neorl.warn import warn_once
+from neorl.core.identity import is_ours
 
 OPTIONS = {"error_model": "numpy", "nogil": True}
-SETTINGS = ("BOUNDSCHECK", "LOOP_VECTORIZE", "OPT", "SLP_VECTORIZE")  # of numba that affect compiled code
 UNLINKED = "NEORL_UNLINKED"  # set in the environment, kernels are compiled each by itself
 
 
@@ -37,16 +31,22 @@ class Compiled(NamedTuple):
 
 @functools.cache
 def links():
-    """Whether kernels are linked: not where this version of numba lacks what that relies on, which is logged."""
-    if os.environ.get(UNLINKED):
-        return False
-    try:
-        from neorl.core import linking
+    """Whether kernels are linked into each other."""
+    return not os.environ.get(UNLINKED) and _has("linking", "link kernels, so a first step takes twice as long")
 
-        linking.check()
+
+@functools.cache
+def caches():
+    """Whether the kernels of this package are cached."""
+    return _has("caching", "cache kernels, so each process compiles them again")
+
+
+def _has(module, purpose):
+    """Whether this version of numba has what a module relies on; where not, it is logged what that was for."""
+    try:
+        importlib.import_module(f"neorl.core.{module}").check()
     except Exception as error:  # of any class, from another version of numba
-        logging.getLogger("neorl").warning("numba %s cannot link kernels, so a first step takes twice as long: %s",
-                                           numba.__version__, error)
+        logging.getLogger("neorl").warning("numba %s cannot %s: %s", numba.__version__, purpose, error)
         return False
     return True
 
@@ -77,14 +77,12 @@ def inner(kernel, reading):
 
 def outer(kernel, reading):
     """The numba dispatcher that compiles a kernel for calls from Python, and by its address."""
-    with _cache(all(is_ours(each) for each in reading.functions)) as caches:
-        in_file = os.path.exists(kernel.py_func.__code__.co_filename)  # which numba looks at, and not in a zip file
-        return numba.njit(**options(no_cfunc_wrapper=True), cache=caches and in_file)(named_apart(kernel, reading))
+    dispatcher = numba.njit(**options(no_cfunc_wrapper=True))(named_apart(kernel, reading))
+    if all(map(is_ours, reading.functions)) and reading.unknown is None and caches():
+        from neorl.core.caching import KernelCache
 
-
-def is_ours(function):
-    """Whether a function is of this package."""
-    return str(function.__module__).partition(".")[0] == "neorl"
+        dispatcher._cache = KernelCache(kernel.__name__, (reading.text, links()))
+    return dispatcher
 
 
 def named_apart(kernel, reading):
@@ -102,42 +100,9 @@ def named_apart(kernel, reading):
     return copy
 
 
-@contextlib.contextmanager
-def _cache(is_ours):
-    """Let numba cache what is decorated within this context, in a folder of its own. Yields whether it can."""
-    folder = folder_of_compiled() if is_ours else None
-    before = numba.config.CACHE_DIR
-    try:
-        if folder:
-            numba.config.CACHE_DIR = str(folder)
-        yield bool(folder)
-    finally:
-        numba.config.CACHE_DIR = before
-
-
-def folder_of_compiled():
-    """Where numba caches the kernels of this package, or None, with a warning, where it cannot."""
-    if not can_cache(*ROOMS):
-        return None
-    made_of = (digest_of_source(*ROOMS), numba.__version__, llvmlite.__version__, sys.version, links(),
-               [getattr(numba.config, name) for name in SETTINGS])
-    folder = files.cache_folder() / "compiled" / hashlib.sha256(repr(made_of).encode()).hexdigest()[:32]
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        warn_once(f"{folder.parent} takes no compiled kernels ({error.strerror}): each process compiles them again")
-        return None
-    return folder
-
-
 def compiled(dispatcher, arguments, returns=None):
     """A dispatcher's code for arguments of these numba types. returns: the type of its result, if given."""
     if arguments not in dispatcher.overloads:
-        try:
-            dispatcher.compile(returns(*arguments) if returns else arguments)
-        except OSError as error:  # on caching it, when it is already compiled
-            if arguments not in dispatcher.overloads:
-                raise
-            warn_once(f"compiled kernels cannot be kept ({error.strerror}): each process compiles them again")
+        dispatcher.compile(returns(*arguments) if returns else arguments)
     made = dispatcher.overloads[arguments]
     return Compiled(dispatcher, made.library, made.fndesc.llvm_func_name, made.entry_point)

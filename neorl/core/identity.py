@@ -205,6 +205,11 @@ def identity(value):
                      "cannot be read")
 
 
+def is_ours(value):
+    """Whether a function or a class is of this package."""
+    return str(value.__module__).partition(".")[0] == "neorl"
+
+
 def name_of(value):
     """The name of a class or function, with that of its module; workers import the main module by another name."""
     return f"{value.__module__}:{value.__qualname__}".replace("__mp_main__", "__main__")

@@ -78,7 +78,8 @@ class View(types.Type):
     """The type of a table of a kind of named tuple. record: the dtype that stands for `Record` in it."""
 
     def __init__(self, kind, record=None):
-        self.kind, self.record = kind, record if takes_records(kind) else None
+        self.kind = self.instance_class = kind  # as numba's own types of named tuples call it
+        self.record = record if takes_records(kind) else None
         of_record = self.record and hashlib.sha256(str(self.record).encode()).hexdigest()[:16]  # symbols contain it
         super().__init__(f"View({kind.__module__}.{kind.__qualname__}, {of_record})")
 
