@@ -2,6 +2,8 @@
 
 A user-defined policy is a kernel of the same form, ``(value, stream) → action``: value, float64 (actions,), has the
 values of the actions; stream provides random numbers by `neorl.core.stream.uniform` and `randint`.
+
+In `notebooks/companion/one_file.py`, `greedy` is the end of `choose` in section 3.
 """
 
 import math
