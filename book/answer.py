@@ -47,9 +47,9 @@ def headline(record):
 
 
 def runs(record):
-    """The number of runs of most claims about agents, 0 if none was judged."""
-    of_claims = Counter(record["claims"][name]["runs"] for name in AGENTS if name in record["claims"])
-    return max(of_claims, key=of_claims.get, default=0)
+    """The number of runs behind claims about agents that are run, "10" or "100 to 1,000", "0" if none was judged."""
+    numbers = {record["claims"][name]["runs"] for name in AGENTS if name in record["claims"] and name != "A10"} or {0}
+    return " to ".join(f"{number:,}" for number in sorted({min(numbers), max(numbers)}))
 
 
 def dependence(record, found):
@@ -66,7 +66,19 @@ def dependence(record, found):
         others = f"; next, on {_listed([_called(name) for name in deciding[1:3]])}" if deciding[1:] else ""
         parts.append(f"Most depends on {_called(deciding[0])}: without its calibrated value, all else unchanged, "
                      f"{lost} would be lost{others}.")
-    return " ".join(parts)
+    return " ".join([*parts, rate_of_paper_a(record)]).strip()
+
+
+def rate_of_paper_a(record):
+    """Which verdicts depend on paper A's steps per second, in a sentence; "" if a record has one rate alone."""
+    if "paper A at 50" not in record:
+        return ""
+    other = {name: each for name, each in record["paper A at 50"].items()
+             if each["verdict"] != report.verdict(record, name)}
+    changed = _listed([f"{_link(name)} would be {each['verdict']} ({report.number(each)})"
+                       for name, each in other.items()]) or "no verdict would change"
+    return ("Paper A runs at 30 steps per second in the calibrated reading, and papers B and C at 50: with 50 for all, "
+            f"{changed}.")
 
 
 def figure(record):

@@ -1,30 +1,62 @@
-"""The rules on the page of claims: when each was fixed and changed, and its code.
+"""The page of rules: what the last change of rules moved, and when each rule was fixed and changed, with its code.
 
-`rules.toml` has the history, with a digest of each rule as it stands, so that none changes without an entry.
+`rules.toml` has the history, with a digest of each rule as it stands, so that none changes without an entry, and
+`rules_before.json` the verdicts before the last change: of the runs recorded then, and of the present runs by the rules
+of then. So one sees what the rules moved, and what the runs did.
 """
 
 import hashlib
 import inspect
+import json
 import sys
 import tomllib
 from pathlib import Path
 
-from companion.page import report
-from companion.thesis import claims
+from companion.page import marks, report
+from companion.page.wording import table
+from companion.thesis import claims, measures, verdict
+from companion.thesis.reading import NAMES
 from companion.thesis.statements import STATEMENTS
 
-HISTORY = Path(__file__).parent / "rules.toml"
+HISTORY, BEFORE = Path(__file__).parent / "rules.toml", Path(__file__).parent / "rules_before.json"
 
 
-def page():
-    """Every rule in a fold of its own, with the commits that fixed and changed it, in MyST Markdown."""
+def page(record):
+    """The last change and every rule, with the commits that fixed and changed it, in MyST Markdown.
+
+    record: of all claims, see `report.load`.
+    """
     history = tomllib.loads(HISTORY.read_text(encoding="utf-8"))
-    return "\n\n".join(_fold(name, rule, history["commits"]) for name, rule in history["rules"].items()) + "\n"
+    return "\n\n".join([moved(record, history["changes"]), "## The rules", *(
+        _fold(name, rule, history["commits"]) for name, rule in history["rules"].items())]) + "\n"
+
+
+def moved(record, changes):
+    """What the last change of rules and the present runs moved, a row for each claim in `BEFORE` and reading."""
+    before, rows = json.loads(BEFORE.read_text(encoding="utf-8")), []
+    for name in STATEMENTS:
+        for reading, part in report.PART_OF.items():
+            if name not in before[part]:
+                continue
+            then, same_rule = before[part][name]["then"], before[part][name]["by the rules of then"]
+            asked = changes.get(name, ["", "unchanged"]) if part == "claims" else ["", ""]
+            rows.append([f"**{name}**" * (part == "claims"), *asked, NAMES[reading],
+                         *(_number(each) for each in (then, same_rule, record[part].get(name)))])
+    head = ["Claim", "Asked", "Asks", "Reading", "Then", "Present runs, rules of then", "Now"]
+    return ("Each claim with what its rule asked before the last change, and asks now; and its verdict with its main "
+            "number: of the runs of then, of the present runs by the rules of then, and of the present runs by the "
+            f"present rules.\n\n{table(head, rows)}")
+
+
+def _number(found):
+    return f"{marks.symbol(found['verdict'])}\u00a0{found['verdict']}, {report.number(found)}" if found else ""
 
 
 def _fold(name, rule, commits):
     first, *later = rule["commits"]
     lines = [f"- Fixed on {commits[first]['date']} in commit `{first}`: {commits[first]['why']}."]
+    lines += [f"- Reads {key}: “{each.quotation}” ({each.place})." for key, each in STATEMENTS.items()
+              if each.rule == name]
     lines += [f"- Changed on {commits[each]['date']} in `{each}`: {commits[each]['why']}." for each in later]
     code = "\n\n\n".join(inspect.getsource(each).rstrip() for each in functions(name))
     return "\n".join([f":::{{dropdown}} {rule['title']}", f"({report.label(name)})=", *lines, "", "```python", code,
@@ -36,6 +68,11 @@ def digest(name):
     bounds = [(key, each.bounds, dict(each.also)) for key, each in STATEMENTS.items() if each.rule == name]
     text = "".join(inspect.getsource(each) for each in functions(name)) + repr(bounds)
     return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def shared():
+    """A digest of what all rules share: how they measure, and how verdicts follow."""
+    return hashlib.sha256("".join(map(inspect.getsource, (measures, verdict))).encode()).hexdigest()[:12]
 
 
 def functions(name):

@@ -22,7 +22,7 @@ def of_claims(paths, chapters):
     """The texts to include, {name of the file: text}. paths: of records of claims. chapters: the folder of pages."""
     build, toc = report.load(paths), (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
     record = of_book(build)
-    return {"claims-rules.md": rules.page(), "claims-front.html": ledger.front(record),
+    return {"claims-rules.md": rules.page(record), "claims-front.html": ledger.front(record),
             "star.html": star.page(), "errata-table.md": report.errata(),
             "contents.md": contents.pictures(toc, chapters), "claims-table.md": ledger.page(record, build)}
 

@@ -4,7 +4,7 @@ Intervals are percentile bootstraps of `scipy.stats`, whose draws are always the
 order statistics.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,11 +16,8 @@ from neorl.experiments.result import Result
 from neorl.worlds.waterworld import WaterWorld
 
 RESAMPLES = 1_000
-Results = Result | Sequence[Result]
 MOST_RUNS = 2**31
 TOLERATED = 0.75  # the share of all possible runs that a tolerance band contains
-WINDOW = 1 / 40  # of a run: the window over which the mean reward per second counts as reaching a level
-HALF_A_MINUTE = 30.0  # seconds: a window that sees how agents differ that learn within a minute
 
 
 class Estimate(NamedTuple):
@@ -61,21 +58,6 @@ def estimate(statistic: Callable, *samples: ArrayLike) -> Estimate:
     return Estimate(value, min(float(low), value), max(float(high), value))
 
 
-def exact(value):
-    """A number without uncertainty, as an `Estimate`."""
-    return Estimate(value, value, value)
-
-
-def least(estimates):
-    """The smallest of several `Estimate`s, with the smallest bounds: that all are above a number."""
-    return Estimate(*map(min, zip(*estimates)))
-
-
-def most(estimates):
-    """The greatest of several `Estimate`s, with the greatest bounds: that all are below a number."""
-    return Estimate(*map(max, zip(*estimates)))
-
-
 def difference(a, b, axis):
     """The mean of a less that of b, for `estimate`."""
     return a.mean(axis) - b.mean(axis)
@@ -90,27 +72,6 @@ def quotient(above, below):
     """above / below, and 0 where below is 0."""
     above, below = np.asarray(above), np.asarray(below)
     return np.divide(above, below, out=np.zeros(above.shape), where=below != 0)
-
-
-def lead_over_best(a, *others, axis):
-    """The mean of a less the greatest of the means of the others, for `estimate`."""
-    return a.mean(axis) - np.max([other.mean(axis) for other in others], axis=0)
-
-
-def lead_over_sum(a, *others, axis):
-    """The mean of a less the sum of the means of the others, for `estimate`."""
-    return a.mean(axis) - sum(other.mean(axis) for other in others)
-
-
-def rank_correlation(*samples, axis):
-    """Spearman's correlation of the samples' order with their values, for `estimate`; scipy's takes one pair at a time.
-    """
-    group = np.repeat(np.arange(len(samples)), [sample.shape[axis] for sample in samples])
-    ranks = scipy.stats.rankdata(np.concatenate(samples, axis), axis=axis)
-    place = scipy.stats.rankdata(group) - (len(group) + 1) / 2
-    off = ranks - (len(group) + 1) / 2
-    spread = np.sqrt((off**2).sum(axis) * (place**2).sum())
-    return quotient((off * place).sum(axis), spread)
 
 
 def probability_of_improvement(better: ArrayLike, worse: ArrayLike) -> Estimate:
@@ -170,100 +131,6 @@ def tolerated_share(runs: int, beyond: int = 1) -> float:
     """
     runs, beyond = checks.integer("runs", runs, 0, MOST_RUNS), checks.integer("beyond", beyond, 1, MOST_RUNS)
     return float(scipy.stats.beta.ppf(0.05, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
-
-
-def rates_in_windows(result, window=None):
-    """Reward per second in windows that begin at each bin: (runs, windows), and their begins and ends in seconds.
-
-    window: its length in seconds, by default a fortieth of the run.
-    """
-    bins, edges = result.rewards.shape[1], result.edges
-    width = max(1, bins // round(1 / WINDOW) if window is None else min(bins, round(window / edges[1])))
-    sums = np.pad(result.rewards.cumsum(axis=1, dtype=float), ((0, 0), (1, 0)))
-    begins, ends = edges[:-width], edges[width:]
-    return (sums[:, width:] - sums[:, :-width]) / (ends - begins), begins, ends
-
-
-def first_time(reached, times, never):
-    """The time of the first window in which a level is reached, bool (…, windows), or `never`: (…)."""
-    return np.where(reached.any(axis=-1), times[reached.argmax(axis=-1)], never)
-
-
-def minutes_sooner(quick: Results, slow: Results, level: float, window: float | None = None) -> Estimate:
-    """The simulated minutes by which runs of `quick` reach a level sooner than those of `slow`, as an `Estimate`.
-
-    quick, slow: a `Result` each, or a sequence of them, of runs of one length, whose rewards add up. level: reward per
-    second. window: seconds > 0, by default a fortieth of the run. The level is reached in the middle of the first
-    window in which the mean over runs reaches it; where it is never reached, the time is the whole run.
-    Raises ValueError for anything else.
-    """
-    level = checks.real("level", level)
-    window = window if window is None else checks.positive("window", window)
-    groups: list[Sequence[Any]] = [group if isinstance(group, list | tuple) else [group] for group in (quick, slow)]
-    for name, group in zip(("quick", "slow"), groups):
-        for result in group:
-            checks.instance(name, result, Result)
-        if len({(result.steps, result.world.fps) for result in group}) != 1:
-            raise ValueError(f"{name} must be one result or more, all of runs of one length, but has {len(group)}")
-    thinned = [[_thinned(*rates_in_windows(result, window)) for result in group] for group in groups]
-
-    def lead(*chosen, axis):
-        chosen, times = iter(chosen), []
-        for group, of_group in zip(groups, thinned):
-            mean = sum(_mean_of_runs(rates, next(chosen)) for rates, _ in of_group)
-            times.append(first_time(mean >= level, of_group[0][1], group[0].seconds))
-        return (times[1] - times[0]) / 60
-
-    return estimate(lead, *(np.arange(result.runs) for group in groups for result in group))
-
-
-def _thinned(rates, begins, ends, of_window=5):
-    """The rates in five windows of those that begin within each length of a window, and their middles."""
-    step = max(1, round((ends[0] - begins[0]) / (begins[1] - begins[0]) / of_window)) if len(begins) > 1 else 1
-    return rates[:, ::step], (begins[::step] + ends[::step]) / 2
-
-
-def _mean_of_runs(rates, chosen):
-    """The mean of rates (runs, windows) over the runs of each resample, chosen: int (…, runs)."""
-    runs = len(rates)
-    counts = np.array([np.bincount(each, minlength=runs) for each in chosen.reshape(-1, runs)])
-    return (counts @ rates / runs).reshape(*chosen.shape[:-1], -1)
-
-
-def minutes_to_own_level(*results: Result, share: float = 0.9, of: Callable | None = None,
-                         window: float | None = None) -> Estimate:
-    """The simulated minutes until the mean over a result's runs reaches `share` of its own final level.
-
-    Single runs reach a level early by chance; their mean does not. The final level is the mean reward per second in the
-    last fifth of the run, and is reached as in `minutes_sooner`; a level that is not positive is never reached.
-
-    results: one `Result`, or several with `of`, a function of the minutes of each, arrays of one shape, such as their
-    quotient. share: from 0 to 1. window: as in `minutes_sooner`. Returns an `Estimate`, from resampled runs. Raises
-    ValueError for anything else.
-    """
-    share = checks.real("share", share, 0, 1)
-    window = window if window is None else checks.positive("window", window)
-    if not results or (not callable(of) if of is not None else len(results) > 1):
-        raise ValueError(f"results must be one, or several with `of`, a function of their minutes, but are "
-                         f"{len(results)} with {checks.shown(of)}")
-    minutes = [_minutes_to_own_level(checks.instance("results", each, Result), share, window) for each in results]
-
-    def statistic(*chosen, axis):
-        times = [each(runs) for each, runs in zip(minutes, chosen)]
-        return of(*times) if of else times[0]
-
-    return estimate(statistic, *(np.arange(result.runs) for result in results))
-
-
-def _minutes_to_own_level(result, share, window):
-    """A function of the runs of each resample, int (…, runs), for `minutes_to_own_level`."""
-    (rates, middles), final = _thinned(*rates_in_windows(result, window)), result.rate(0.8, 1.0)[:, None]
-
-    def minutes(chosen):
-        level = share * _mean_of_runs(final, chosen)
-        return first_time((_mean_of_runs(rates, chosen) >= level) & (level > 0), middles, result.seconds) / 60
-
-    return minutes
 
 
 def mean_band(curves: ArrayLike) -> Any:

@@ -22,7 +22,7 @@ from companion.study.calibration_targets import CLAIMS as FITTED
 from companion.thesis.reading import TO_THE_LETTER, Reading
 from companion.thesis.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS, Bounds
 
-FOUND = {"here": [0.1, 0.09, 0.11], "runs": 100, "verdict": "reproduced",
+FOUND = {"here": [0.1, 0.09, 0.11], "runs": 100, "verdict": "reproduced", "parts": [], "together": 1,
          "numbers": {"Lead of B over A": [[0.1, 0.09, 0.11], "more than 0", "✓", "asked"]}}
 RECORD = {"commit": "abc1234", "date": "2026-12-01",
           "claims": {"C2": FOUND, "A6": FOUND | {"here": [0.19, None, None], "verdict": "undecided"},
@@ -123,7 +123,7 @@ def test_one_headline_stands_on_all_pages_and_counts_what_was_used_to_choose_the
     departing = sum(Reading().choices[name] != TO_THE_LETTER.choices[name] for name in WITHIN)
     assert headline == (
         "With every gap of the text filled by what it prints, or by the simplest value (“to the letter”), 1 of the "
-        f"thesis’s {len(AGENTS)} claims about agents are reproduced ({ledger.runs(RECORD)} runs of each condition). "
+        f"thesis’s {len(AGENTS)} claims about agents are reproduced (100 runs of each condition). "
         f"With {departing} of the {len(WITHIN)} gaps filled by other values, which fit best (“calibrated”), 2 are: 1 "
         "of the 13 claims that were used for the fit, and 1 "
         f"of the other {len(AGENTS) - 13}.")
@@ -149,10 +149,20 @@ def test_every_rule_says_which_commits_fixed_and_changed_it_and_shows_its_code()
     history = tomllib.loads(rules.HISTORY.read_text(encoding="utf-8"))
     assert set(history["rules"]) == {each.rule for each in STATEMENTS.values()}
     assert {each for rule in history["rules"].values() for each in rule["commits"]} == set(history["commits"])
-    found = rules.page()
+    found = rules.page(RECORD)
     for name in history["rules"]:
         assert f"({report.label(name)})=\n- Fixed on 2026-11-" in found and f"def {name}(" in found
-    assert "def _judge_saturation(" in found
+    assert "def _judge_evenness(" in found
+    assert all(f"- Reads {name}: “{each.quotation}” ({each.place})." in found for name, each in STATEMENTS.items())
+
+
+def test_what_the_last_change_of_rules_and_the_runs_moved_is_listed_for_both_readings():
+    rows = [row for row in rules.page(RECORD).splitlines() if row.startswith("| ")]
+    assert len(rows) >= 40 and all(row.count(" | ") == 6 for row in rows)
+    (row,) = [row for row in rows if row.startswith("| **C2**")]
+    assert "lead above 0 | lead at least 0.01 a second | calibrated |" in row
+    assert row.endswith("reproduced, 0.10 [0.09, 0.11] |")
+    assert {*tomllib.loads(rules.HISTORY.read_text(encoding="utf-8"))["changes"]} <= {*STATEMENTS}
 
 
 def test_no_rule_and_no_bound_changes_without_an_entry(monkeypatch):
@@ -161,8 +171,23 @@ def test_no_rule_and_no_bound_changes_without_an_entry(monkeypatch):
     before = rules.digest("judge_networks")
     monkeypatch.setitem(STATEMENTS, "C4", replace(STATEMENTS["C4"], bounds=Bounds(low=1.4)))
     assert rules.digest("judge_networks") != before
+    assert tomllib.loads(rules.HISTORY.read_text(encoding="utf-8"))["shared"] == rules.shared()
 
 
+def test_the_headline_has_the_fewest_and_the_most_runs_of_claims_that_are_run():
+    others = {"A6": FOUND | {"runs": 1_000}, "A10": FOUND | {"runs": 10}}
+    assert "(100 to 1,000 runs of each condition)" in ledger.headline(RECORD | {"claims": RECORD["claims"] | others})
+
+
+def test_what_depends_on_the_steps_per_second_of_paper_a_is_said():
+    other = {"A6": FOUND | {"verdict": "contradicted", "here": [-0.2, -0.3, -0.1]}, "A8": FOUND}
+    assert re.sub("<[^>]*>", "", answer.rate_of_paper_a(RECORD | {"paper A at 50": other})).endswith(
+        "with 50 for all, A6 would be contradicted (−0.20 [−0.30, −0.10]).")
+    assert answer.rate_of_paper_a(RECORD | {"paper A at 50": {"A8": FOUND}}).endswith("no verdict would change.")
+    assert answer.rate_of_paper_a(RECORD) == ""
+
+
+@pytest.mark.skipif(not RECORDED.exists(), reason="nothing is recorded")
 def test_levels_of_both_readings_stand_on_one_axis():
     record = json.loads(RECORDED.read_text())
     shown = levels.section(record)

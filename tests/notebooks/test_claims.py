@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 from neorl import Condition, Result, WaterWorld, place_cells
+from neorl.statistics import difference, estimate
 from companion.thesis import claims
 from companion.thesis.verdict import VERDICTS, outcome
 
 EIGHT = WaterWorld(win_reward=5.0)
+AT = np.arange(1_000) / 1_000  # shares of a run
 
 
 def lives(curve, runs=20, noise=0.02, world=EIGHT, steps=10_000):
@@ -47,8 +49,8 @@ def in_world(result, world):
 
 
 def paper_a(runs=20):
-    """Coarse maps level off half-way, fine ones rise to the end, and all three together lead."""
-    single = {10: made_up(0.20, 0.6, runs, 0.3), 30: made_up(0.18, 0.7, runs, 0.3), 50: rising(0.15, 1.3, runs, 0.6),
+    """Coarse maps rise half-way, fine ones to the end, and all three together lead."""
+    single = {10: made_up(0.20, 0.6, runs, 0.45), 30: made_up(0.18, 0.7, runs, 0.45), 50: rising(0.15, 1.3, runs, 0.6),
               70: rising(0.10, 1.5, runs), 90: rising(0.05, 1.6, runs)}
     layers = {3: made_up(0.0, 0.05, runs), 7: made_up(0.0, 0.2, runs, 0.3), 23: made_up(0.0, 0.25, runs, 0.3)}
     return single, brownian(runs=runs), layers, made_up(0.2, 0.7, runs, 0.2)
@@ -71,15 +73,15 @@ def test_results_like_the_papers_are_judged_reproduced():
     ("A2", lambda single, *rest: ({n: made_up(-0.1) for n in single}, *rest), "contradicted"),
     ("A3", lambda single, *rest: ({n: made_up(0.5 - n / 300) for n in single}, *rest), "partly"),  # ahead early only
     ("A3", lambda single, *rest: ({n: made_up(0.3 + n / 300, 0.6 + n / 100) for n in single}, *rest), "partly"),
-    ("A3", lambda single, *rest: ({n: rising(0.3 + n / 300, 1 + n / 300) for n in single}, *rest), "contradicted"),
+    ("A3", lambda single, *rest: ({n: rising(0.3 + n / 300, 1 + n / 300) for n in single}, *rest), "partly"),
     ("A3", lambda single, *rest: ({n: made_up(n / 300, 0.9 - n / 150) for n in single}, *rest), "contradicted"),
-    ("A4", lambda single, *rest: ({**single, 30: made_up(1.4)}, *rest), "partly"),  # but ahead of both ends
+    ("A4", lambda single, *rest: ({**single, 30: made_up(1.4)}, *rest), "contradicted"),  # though ahead of both ends
     ("A4", lambda single, *rest: ({**single, 10: made_up(1.1)}, *rest), "contradicted"),
     ("A4", lambda single, *rest: ({**single, 10: made_up(2.0)}, *rest), "contradicted"),
     ("A5", lambda single, *rest: ({**single, 90: made_up(0.2)}, *rest), "partly"),  # N10 and N70 still compare
     ("A5", lambda single, *rest: ({**single, 70: made_up(0.1)}, *rest), "contradicted"),
     ("A6", lambda *given: (*given[:3], made_up(0.0, 0.7, learned_by=0.5)), "partly"),  # higher, and later
-    ("A6", lambda *given: (*given[:3], made_up(0.3)), "partly"),  # sooner, and lower
+    ("A6", lambda *given: (*given[:3], made_up(0.4)), "partly"),  # sooner, and lower
     ("A6", lambda *given: (*given[:3], made_up(0.0, 0.45, learned_by=0.5)), "contradicted"),  # beats only the best
     ("A7", lambda *given: (*given[:3], made_up(0.2, 0.4)), "partly"),  # twice
     ("A7", lambda *given: (*given[:3], made_up(0.2, 1.4)), "partly"),  # 7 times
@@ -88,6 +90,8 @@ def test_results_like_the_papers_are_judged_reproduced():
     ("A8", lambda *given: (*given[:3], made_up(0.0, 0.7, learned_by=0.5)), "partly"),
     ("A8", lambda *given: (*given[:3], made_up(0.2)), "partly"),
     ("A8", lambda *given: (*given[:3], made_up(0.0, 0.2, learned_by=0.5)), "contradicted"),
+    ("A11", lambda single, *rest: ({n: made_up(0.5 - n / 1000) for n in single}, *rest), "reproduced"),  # below 0
+    ("A11", lambda single, *rest: ({n: made_up(0.5 + abs(n - 50)) for n in single}, *rest), "contradicted"),
     ("A3", lambda single, *rest: ({n: made_up(-0.1 + n / 1000) for n in single}, *rest), "not testable"),
     ("A4", lambda single, *rest: ({n: made_up(-0.1) for n in single}, *rest), "not testable"),
     ("A5", lambda single, *rest: ({n: made_up(0.0) for n in single}, *rest), "not testable"),
@@ -96,6 +100,22 @@ def test_results_like_the_papers_are_judged_reproduced():
     ("A8", lambda *given: (*given[:2], {n: made_up(0.0) for n in (3, 7, 23)}, made_up(0.0)), "not testable"),
 ])
 def test_results_unlike_the_papers_are_judged_otherwise(name, change, expected):
+    assert verdicts(*change(*paper_a()))[name] == expected
+
+
+@pytest.mark.parametrize("name, change, expected", [
+    # A lead that no figure shows: it was enough.
+    ("A2", lambda single, *rest: ({**single, 90: lives(np.full(1_000, 0.005), noise=0.001)}, *rest), "partly"),
+    # All maps rise to the end, as the thesis draws them: none counted, so that the claim was contradicted.
+    ("A3", lambda single, *rest: ({n: rising(0.3 - n / 400, 1 + n / 300) for n in single}, *rest), "reproduced"),
+    # N90 earns what chance earns, throughout: it counted as the quickest learner.
+    ("A5", lambda single, *rest: ({**single, 90: made_up(0.003)}, *rest), "reproduced"),
+    # Half of the sum is reached early, once, and then lost until late: that was quicker.
+    ("A6", lambda *given: (*given[:3], lives(np.where((0.1 < AT) & (AT < 0.2) | (AT > 0.6), 0.7, 0.0))), "partly"),
+    # Sooner than two of the three maps.
+    ("A8", lambda single, control, layers, together: (single, control, layers | {3: rising(0.3, 0.4)}, together),
+     "partly")])
+def test_rules_ask_what_their_sentence_says_where_earlier_ones_did_not(name, change, expected):
     assert verdicts(*change(*paper_a()))[name] == expected
 
 
@@ -121,10 +141,14 @@ def paper_b(runs=20):
     return place, objects, climbing(0.56, 10, runs)
 
 
-def climbing(final, minutes, runs=20):
-    """A result of 200 simulated minutes whose runs climb to `final` per second within `minutes`."""
+def climbing(final, minutes, runs=20, lucky=(0, 0)):
+    """A result of 200 simulated minutes whose runs climb to `final` per second within `minutes`.
+
+    lucky: the minutes between which they earn as much early.
+    """
     bins = 60_000
-    rate = np.minimum(np.arange(bins) / 300 / minutes, 1) * final
+    at = np.arange(bins) / 300
+    rate = np.where((lucky[0] <= at) & (at < lucky[1]), final, np.minimum(at / minutes, 1) * final)
     noise = np.random.default_rng(0).uniform(0.95, 1.05, (runs, 1))
     rewards = (rate * noise * 0.2).astype(np.float32)
     condition = Condition(place_cells([1]), WaterWorld(), 600_000, runs)
@@ -150,8 +174,8 @@ def test_results_like_those_of_papers_b_and_c_are_judged_reproduced():
 
 @pytest.mark.parametrize("name, change, expected", [
     ("B1", lambda pc, ovc, both: ({**pc, "all": climbing(0.3, 60)}, {**ovc, "all": climbing(0.3, 200)}, both),
-     "partly"),  # as high at the end, less in total
-    ("B1", lambda pc, ovc, both: (pc, {**ovc, "all": climbing(0.6, 100)}, both), "partly"),  # better than comparable
+     "contradicted"),  # as high at the end, less in total; this was partly
+    ("B1", lambda pc, ovc, both: (pc, {**ovc, "all": climbing(0.6, 100)}, both), "reproduced"),  # this was partly
     ("B1", lambda pc, ovc, both: (pc, {**ovc, "all": climbing(0.18, 180)}, both), "contradicted"),  # two thirds
     ("B1", lambda pc, ovc, both: (pc, {**ovc, "all": climbing(-0.1, 100)}, both), "contradicted"),  # learned nothing
     ("B1", lambda pc, ovc, both: ({**pc, "all": climbing(-0.1, 100)}, ovc, both), "not testable"),
@@ -169,6 +193,8 @@ def test_results_like_those_of_papers_b_and_c_are_judged_reproduced():
      "contradicted"),
     ("B4", lambda pc, ovc, both: (pc, ovc, made_up(0.5)), "undecided"),  # minutes, not hours
     ("B4", lambda pc, ovc, both: (pc, ovc, climbing(-0.1, 9)), "not testable"),
+    ("B4", lambda pc, ovc, both: (pc, ovc, climbing(0.56, 60, lucky=(10, 13))), "partly"),  # this was reproduced
+    ("B6", lambda pc, ovc, both: (pc, {**ovc, "all": climbing(0.3, 100, lucky=(0, 20))}, both), "reproduced"),  # not so
     ("B6", lambda pc, ovc, both: (pc, ovc, climbing(0.56, 200)), "partly"),
     ("B6", lambda pc, ovc, both: (pc, {**ovc, "all": climbing(0.6, 100)}, both), "partly"),
     ("B6", lambda pc, ovc, both: (pc, ovc, climbing(0.2, 200)), "contradicted"),
@@ -197,9 +223,9 @@ def test_networks_unlike_the_papers_are_judged_otherwise(name, agent, early, fin
 
 
 @pytest.mark.parametrize("chance, expected", [
-    (0.31, ["partly", "reproduced", "reproduced", "reproduced"]),
-    (0.65, ["partly", "reproduced", "reproduced", "contradicted"])])
-def test_only_improvement_and_recursion_have_to_exceed_chance(chance, expected):
+    (0.31, ["reproduced", "reproduced", "reproduced", "reproduced"]),  # C1 was partly
+    (0.65, ["reproduced", "reproduced", "reproduced", "contradicted"])])
+def test_only_recursion_has_to_exceed_chance(chance, expected):
     judged = claims.judge_networks(*paper_c(), brownian(chance))
     assert [claim.verdict for claim in judged] == expected
 
@@ -238,11 +264,13 @@ def test_joining_is_judged_by_what_it_brings_and_by_what_it_costs(joined, expect
     assert claims.judge_joining(joined, alone, brownian(0.6)).verdict == "not testable"
 
 
-def taking(before, after, final, runs=20):
-    """Runs that catch `before` red creeps per bin in the first half, then `after`, and `final` in the last fifth."""
-    result = made_up(0.1, runs=runs)
-    hits = np.zeros((runs, 1_000, 2), np.int16)
-    hits[:, :500, 1], hits[:, 500:800, 1], hits[:, 800:, 1] = before, after, final
+def catching(before, after, final, runs=20):
+    """Runs that catch creeps, this many a second before half-time, in the first tenth after it, and finally."""
+    result = lives(np.full(6_000, 0.1), runs, steps=60_000)
+    hits = np.zeros((runs, 6_000, 2), np.int16)
+    hits[:, ::5, 0] = before
+    hits[:, 3_000:3_600:5, 0], hits[:, 3_600::5, 0] = after, final
+    hits[0, 3_000:3_100] = hits[0, 3_000:3_100, ::-1]  # some are red
     return replace(result, hits=hits)
 
 
@@ -251,26 +279,25 @@ def moves(first, later, ignorant=0.5):
     return {"experienced": np.where(np.arange(6) < 2, first, later) + noise, "ignorant": ignorant + noise}
 
 
-@pytest.mark.parametrize("revalued, moved, expected", [
-    (taking(1, 3, 3), None, "reproduced"), (taking(1, 2, 4), None, "contradicted"),
-    (taking(1, 9, 1), None, "reproduced"),  # soon collapses, which concerns no sentence on retraining
-    (taking(3, 3, 1), None, "not three"), (taking(1, 1, 3), None, "contradicted"),
-    (taking(1, 3, 3, runs=9), None, "no verdict"),
-    (taking(1, 3, 3), moves(0.1, 0.1), "reproduced"), (taking(1, 3, 3), moves(0.1, 0.3), "partly"),
-    (taking(1, 1, 3), moves(0.1, 0.1), "partly"), (taking(1, 1, 3), moves(0.1, 0.5), "contradicted"),
-])
-def test_a_turn_of_desires_is_judged_by_agents_that_had_them_from_the_start(revalued, moved, expected):
-    wanting = taking(3, 3, 3)
-    if expected == "not three":  # without a rise there is none to reach
-        wanting, expected = revalued, "contradicted"
-    assert claims.judge_changes(revalued, wanting, moved).verdict == expected
-
-
-def test_red_creeps_are_counted_per_minute():
-    claim = claims.judge_changes(taking(1, 3, 4), taking(5, 5, 5))
-    assert claim.here == pytest.approx((0.5, 0.5, 0.5))
-    found = [claim.numbers[f"per minute, {when}"][0].value for when in ("before the turn", "wanted from the start")]
-    assert found == pytest.approx([300, 1500])  # 1 and 5 per bin of 0.2 s
+@pytest.mark.parametrize("after, frozen, moved, expected", [
+    (catching(1, 5, 5), catching(1, 5, 5), moves(0.1, 0.1), "reproduced"),
+    # Forgets again, and catches no more finally than before: the rise was divided by almost nothing, or less.
+    (catching(1, 5, 0), catching(1, 5, 5), moves(0.1, 0.1), "reproduced"),
+    (catching(1, 2, 5), catching(1, 5, 5), moves(0.1, 0.1), "partly"),  # has to learn
+    (catching(1, 1, 1), catching(1, 1, 1), moves(0.1, 0.1), "partly"),  # no better than chance
+    (catching(1, 5, 5), catching(1, 5, 5), moves(0.3, 0.1), "partly"),  # nearer at later visits
+    (catching(1, 5, 5), catching(1, 5, 5), moves(0.6, 0.6), "partly"),  # ignorant agents are nearer
+    # The ratio of distances was inverted: 0.34 and 0.30, then 0.10 passed.
+    (catching(1, 2, 5), catching(1, 5, 5), moves(0.30, 0.10, 0.34), "contradicted"),
+    (catching(1, 5, 5, runs=9), catching(1, 5, 5), moves(0.1, 0.1), "no verdict")])
+def test_new_desires_are_served_at_once_or_need_learning(after, frozen, moved, expected):
+    turned = {"revalued": after, "frozen": frozen, "wanting": catching(5, 0, 0)}
+    distances = {"both": moved, "place cells": moves(0.9, 0.9)}  # which do not decide
+    claim = claims.judge_changes(turned, catching(1, 1, 1), distances)
+    assert claim.verdict == expected
+    assert claim.numbers["caught a minute, first minute"][0].value == pytest.approx(
+        60 * after.hits[:, 3_000:3_030].sum(axis=(1, 2)).mean() / 6)
+    assert claim.numbers["distance at later visits, ignorant with place cells"][0].value == pytest.approx(0.5, abs=0.01)
 
 
 @pytest.mark.parametrize("together, expected", [(7.0, "reproduced"), (8.5, "contradicted")])
@@ -282,14 +309,16 @@ def test_the_cost_of_maps_is_judged_by_the_sum_of_what_each_costs(together, expe
 
 
 @pytest.mark.parametrize("more, expected", [
-    ((made_up(0.2, 0.6), made_up(0.0, 0.3)), "reproduced"),
-    ((made_up(0.2, 0.6), made_up(0.0, 0.3, learned_by=0.5)), "partly"),
-    ((made_up(0.0, 0.6, learned_by=0.4), made_up(0.0, 0.3, learned_by=0.5)), "contradicted")])
+    ((made_up(0.2, 0.6), made_up(0.0, 0.4)), "reproduced"),
+    ((made_up(0.2, 0.6), made_up(0.0, 0.28)), "partly"),  # as quick, and no better: this was reproduced
+    ((made_up(0.2, 0.6), made_up(0.0, 0.4, learned_by=0.5)), "partly"),
+    ((made_up(0.0, 0.6, learned_by=0.4), made_up(0.0, 0.28, learned_by=0.5)), "contradicted")])
 def test_more_maps_are_compared_with_the_quickest_of_those_with_fewer(more, expected):
-    fewer, slow = made_up(0.0, 0.3), made_up(0.0, 0.3, learned_by=0.6)
-    additions = {name: (each, [slow, fewer], brownian()) for name, each in zip(("maps", "a modality"), more)}
+    fewer = {"slow": made_up(0.0, 0.3, learned_by=0.6), "quick": made_up(0.0, 0.3)}
+    additions = {name: (each, fewer, brownian()) for name, each in zip(("maps", "a modality"), more)}
     claim = claims.judge_more_maps(additions)
-    assert claim.verdict == expected and "minutes sooner, a modality" in claim.numbers
+    assert claim.verdict == expected and "minutes sooner, a modality, over slow" in claim.numbers
+    assert claim.together == 8
     nothing = {name: (each, fewer, brownian(0.5)) for name, (each, fewer, _) in additions.items()}
     assert claims.judge_more_maps(nothing).verdict == "not testable"
 
@@ -308,13 +337,17 @@ def test_persistence_is_needed_where_the_best_of_temporal_difference_fails(steps
 
 
 @pytest.mark.parametrize("stays, expected", [
-    ([3.0, 1.0, 0.3], "reproduced"), ([3.0, 1.0, 1.2], "partly"), ([1.2, 1.1, 1.0], "partly"),
+    ([3.0, 1.0, 0.3], "reproduced"), ([3.0, 1.0, 1.2], "contradicted"), ([1.2, 1.1, 1.0], "contradicted"),
+    ([2.0, 1.0, 0.5], "partly"),  # as motion alone has it: this was reproduced
     ([0.3, 1.0, 3.0], "contradicted")])
-def test_the_time_scale_is_judged_by_the_stay_in_a_cell(stays, expected):
+def test_the_time_scale_is_judged_by_the_stay_in_a_cell_beside_that_of_motion_alone(stays, expected):
     noise = np.random.default_rng(0).uniform(0.99, 1.01, (20, 3))
-    assert claims.judge_time_scale([3, 7, 23], stays * noise).verdict == expected
-    shuffled = claims.judge_time_scale([23, 3, 7], (stays * noise)[:, [2, 0, 1]])
-    assert shuffled == claims.judge_time_scale([3, 7, 23], stays * noise)
+    alone = {"Brownian motion": [2.2, 1.0, 0.45] * noise}
+    claim = claims.judge_time_scale([3, 7, 23], stays * noise, alone)
+    assert claim.verdict == expected and claim.numbers["exponent, Brownian motion"][0].value > 0.5
+    order = [2, 0, 1]
+    assert claim == claims.judge_time_scale([23, 3, 7], (stays * noise)[:, order],
+                                            {name: each[:, order] for name, each in alone.items()})
 
 
 @pytest.mark.parametrize("runs", [1, 9])
@@ -326,7 +359,7 @@ def test_fewer_than_ten_runs_give_no_verdicts(runs):
 
 @pytest.mark.parametrize("name, change", [
     ("A4", lambda single, *rest: ({**single, 10: made_up(0.9)}, *rest)),  # within the noise of N50
-    ("A2", lambda single, *rest: ({**single, 90: made_up(0.0)}, *rest)),
+    ("A2", lambda single, *rest: ({**single, 90: made_up(0.012)}, *rest)),
 ])
 def test_a_claim_is_undecided_while_an_interval_crosses_a_bound(name, change):
     assert verdicts(*change(*paper_a()))[name] == "undecided"
@@ -340,7 +373,8 @@ def test_room_for_a_claim_is_no_part_of_it():
     judged += claims.judge_multiple_layers(dict.fromkeys((3, 7, 23), alike()), alike(), brownian())
     judged += claims.judge_networks(*[alike()] * 4, brownian())
     found = {claim.name: claim.outcome for claim in judged}
-    assert {found[name] for name in ("A4", "A7", "A8", "C2", "C3", "C4")} == {"undecided"}
+    assert {found[name] for name in ("A4", "A7", "C2", "C3", "C4")} == {"undecided"}
+    assert found["A8"] == "not as a whole"  # no sooner
 
 
 @pytest.mark.filterwarnings("error")
@@ -349,25 +383,34 @@ def test_agents_that_earn_nothing_cause_no_division_by_zero():
     judged = claims.judge_single_layer(dict.fromkeys((10, 30, 50, 70, 90), nothing), nothing)
     judged += claims.judge_multiple_layers(dict.fromkeys((3, 7, 23), nothing), nothing, nothing)
     judged += claims.judge_modalities(*[nothing] * 4) + claims.judge_networks(*[nothing] * 5)
-    judged += [claims.judge_changes(nothing, nothing), claims.judge_joining(*[nothing] * 3),
-               claims.judge_points(nothing),
+    judged += [claims.judge_changes(dict.fromkeys(("revalued", "frozen", "wanting"), nothing), nothing,
+                                    dict.fromkeys(("both", "place cells"), {"experienced": np.zeros((4, 6)),
+                                                                            "ignorant": np.zeros((4, 6))})),
+               claims.judge_joining(*[nothing] * 3), claims.judge_points(nothing),
                claims.judge_persistence({"one": (nothing, {"γ": nothing}, nothing)}),
-               claims.judge_more_maps({"maps": (nothing, [nothing], nothing)})]
+               claims.judge_more_maps({"maps": (nothing, {"fewer": nothing}, nothing)})]
     judged += [claims.judge_untrained({"DQN": nothing.totals}, nothing.totals)]
     assert {claim.outcome for claim in judged} <= {*VERDICTS}
 
 
-@pytest.mark.parametrize("asked, part, testable, expected", [
-    ((True, True), (), True, "reproduced"), ((True, None), (), True, "undecided"), ((True, False), (), True, "partly"),
-    ((False, False), (), True, "contradicted"), ((False, None), (), True, "undecided"),
-    ((False, True), (False,), True, "contradicted"), ((False, False), (True, None), True, "partly"),
-    ((False, False), (None,), True, "undecided"), ((None, None), (True,), True, "undecided"),
-    ((True, True), (), False, "not testable"), ((False, False), (), None, "undecided"),
-])
-def test_an_outcome_follows_from_what_intervals_decide(asked, part, testable, expected):
-    decided = {f"{role} {i}": (true, role) for role, truths in (("asked", asked), ("part", part))
-               for i, true in enumerate(truths)}
-    assert outcome(decided, testable) == expected
+@pytest.mark.parametrize("asked, parts, testable, expected", [
+    ((True, True), ("0", "1"), True, "reproduced"), ((True, None), ("0", "1"), True, "undecided"),
+    ((True, False), ("0", "1"), True, "partly"), ((False, False), ("0", "1"), True, "contradicted"),
+    ((False, None), ("0", "1"), True, "not as a whole"), ((False, True), ("0",), True, "contradicted"),
+    ((False, True, True), ("01", "12"), True, "partly"), ((False, True, None), ("01", "12"), True, "not as a whole"),
+    ((False, True), (), True, "contradicted"), ((None, True), ("1",), True, "undecided"),
+    ((True, True), (), False, "not testable"), ((False, False), ("0",), None, "undecided")])
+def test_an_outcome_follows_from_what_intervals_decide(asked, parts, testable, expected):
+    decided = {str(i): true for i, true in enumerate(asked)}
+    assert outcome(decided, [*decided], parts, testable) == expected
+
+
+def test_a_verdict_on_several_intervals_widens_them_for_their_number():
+    single, control, *_ = paper_a()
+    a2 = next(claim for claim in claims.judge_single_layer(single, control) if claim.name == "A2")
+    value, low, high = a2.numbers["lead, N50"][0]
+    alone = estimate(difference, single[50].rate(), control.rate())
+    assert a2.together == 5 and (value - low) / (alone.value - alone.low) == pytest.approx(2.576 / 1.960, rel=1e-3)
 
 
 @pytest.mark.parametrize("scores, expected", [

@@ -37,8 +37,8 @@ def contrast(first, second):
 
 def test_every_verdict_has_a_mark_whose_colour_is_legible_on_all_grounds():
     symbols = [marks.symbol(verdict) for verdict in (*VERDICTS, report.NOT_COMPUTED)]
-    assert symbols == ["●", "◐", "○", "?", "◇", "∎", "∃", "◇", "◇"]  # apart by shape, but for those without a finding
-    assert "○\u00a0contradicted, ?\u00a0undecided (more runs would tell), ◇" in marks.legend()
+    assert symbols == ["●", "◐", "○", "⊘", "?", "◇", "∎", "∃", "◇", "◇"]  # apart by shape, but for those of no finding
+    assert "(whether a part holds is open), ?\u00a0undecided (more runs would tell), ◇" in marks.legend()
     styled = dict(re.findall(r"\n\.(verdict-[\w-]+) \{\n  color: var\(--([\w-]+)\);", STYLE_SHEET))
     assert styled.keys() == {mark.css for mark in marks.MARKS.values()}
     found = re.findall(r"--(verdict-[\w-]*|link[\w-]*): (#[0-9a-f]{6});", STYLE_SHEET)

@@ -19,7 +19,8 @@ TANK = neorl.WaterWorld()
 
 
 def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets():
-    (found,) = trials.mean_stays(Condition(PLACE, TANK, 8_000, 1)).seconds
+    stays = trials.mean_stays(Condition(PLACE, TANK, 8_000, 1))
+    (found,) = stays.seconds
     run, changes = neorl.Run(PLACE, neorl.WaterWorld(win_reward=100.0), 0), np.zeros(2)
     run.advance(2_000)
     resets = 0
@@ -30,10 +31,14 @@ def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets()
         changes += (run.memory.tracks.cell != before) & (not reset)
     assert resets > 0
     np.testing.assert_allclose(found, 40 / changes)
+    assert [each.shape for each in stays.without.values()] == [(1, 2)] * 2
+    assert all((each != found).all() for each in stays.without.values())
 
 
 def test_the_desired_place_moves_and_experience_is_worth_something():
-    _, moved, seconds = changes.distances(Condition(PLACE, TANK, 40_000, 2))
+    _, moved, seconds = found = changes.distances(Condition(PLACE, TANK, 40_000, 2))
+    assert {*{desire.target for desire in changes.desiring(BOTH, changes.PLACES[0]).desires}} == {"PC", "OVC"}
+    np.testing.assert_allclose(found.means["ignorant"], moved["ignorant"].mean(axis=2))
     assert moved["ignorant"].shape == moved["experienced"].shape == (2, 6, 150) and seconds[-1] == 30
     run = neorl.Run(PLACE, TANK, 0, 1)
     run.advance(10_000)

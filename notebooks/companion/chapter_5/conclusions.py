@@ -27,6 +27,7 @@ GROUND = tuple(name for name in AGENTS if name not in SUPERPOSITION + SEPARATION
 GROUPS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION, "What both rest on": GROUND,
           "Counted apart": APART, "Beside the claims": DEMONSTRATIONS}
 OWN = CLAIMS_OF["chapter_5"]
+TURNED = ("revalued", "frozen", "wanting")  # agents whose desires change, or that had the later ones from the start
 WITHOUT_READING = [name for page in ("alternatives", "chapter_2", "chapter_3", "other_spaces")
                    for name in CLAIMS_OF[page]]  # claims of pages that run no reading
 
@@ -35,13 +36,15 @@ def judge(ran, reading, moved, costs):
     """The claims that the page itself judges, T1, T2 and T6, a list.
 
     ran: {key: `Result`}, of the groups "layers", "modal", "resolutions" and "revaluing" of a reading's conditions.
-    moved, costs: a `trials.Moved` and a `trials.Costs`.
+    moved: {"both": `trials.Moved`, "place cells": the same}. costs: a `trials.Costs`.
     """
     wanted = judging.papers_conditions(reading, "layers", "modal", "resolutions", "revaluing")
-    turned, wanting, place, both = (wanted[key] for key in ("revalued", "wanting", ("place", "all"), "both"))
-    near = {group: each.mean(axis=2) for group, each in moved.distances.items()}
-    return [*judging.judge(lambda: [claims.judge_changes(ran["revalued"], ran["wanting"], near)],
-                           [ran["revalued"], ran["wanting"], moved.condition], [turned, wanting, place]),
+    place, both = wanted["place", "all"], wanted["both"]
+    turned = {name: ran[name] for name in TURNED}
+    near = {agents: each.means for agents, each in moved.items()}
+    return [*judging.judge(lambda: [claims.judge_changes(turned, ran["brownian", 3], near)],
+                           {**turned, "moved": [each.condition for each in moved.values()]},
+                           {**{name: wanted[name] for name in TURNED}, "moved": [both, place]}),
             *judging.judge(lambda: [claims.judge_cost(costs.first[-1], costs.alone, costs.none)],
                            costs.condition, replace(both, steps=TIMED)),
             *judging.judge(lambda: [claims.judge_more_maps(additions(ran))], ran, wanted)]

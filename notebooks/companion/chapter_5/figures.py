@@ -4,12 +4,10 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from companion.chapter_5.trials import SECONDS_A_MOVE
-from companion.page.thesis_figures import draw_against_thesis
+from companion.page.thesis_figures import draw_against_thesis, mark_levels
 from companion.study import multiverse_figures
 from neorl.drawing.curves import draw_curves
 from neorl.drawing.style import CURVES, INK, axes_or_new, name_ends
-
-STRETCHES = 100  # intervals of a run in which red creeps are counted
 
 
 def draw_standing(record, names):
@@ -37,23 +35,34 @@ def draw_costs(costs):
     name_ends(axes, [(costs.measured[-1], "measured", CURVES[0]), (costs.predicted[-1], "sum", INK)])
 
 
-def draw_revaluing(revalued):
-    """Draw red creeps taken per minute over the run, and a line where they are revalued. revalued: {name: `Result`}."""
-    minutes, curves = red_a_minute(revalued)
-    axes = draw_curves(minutes, curves, "simulated minutes", "red creeps per minute")
-    axes.axvline((minutes[0] + minutes[-1]) / 2, color=INK, linewidth=0.7)
+def draw_revaluing(turned, chance):
+    """Draw discs caught per minute from 10 minutes before red is wanted too, marked by a line, to 40 minutes after it.
+
+    turned: {name: `Result`}, of runs that change at half-time. chance: what Brownian motion catches per minute.
+    """
+    minutes, curves = caught_around(turned)
+    axes = draw_curves(minutes, curves, "simulated minutes since red discs are wanted, too", "discs caught per minute")
+    axes.set_xlim(minutes[0], minutes[-1])
+    axes.axvline(0, color=INK, linewidth=0.7)
+    mark_levels(axes, {"Brownian motion": chance})
 
 
-def red_a_minute(revalued):
-    """The midpoints of `STRETCHES` of a run, in minutes, and red creeps taken per minute."""
-    edges = np.linspace(0, 1, STRETCHES + 1)
-    curves = {name: np.stack([60 * result.hit_rate(*pair)[:, 1] for pair in zip(edges[:-1], edges[1:])], axis=1)
-              for name, result in revalued.items()}
-    return (edges[:-1] + edges[1:]) / 2 * next(iter(revalued.values())).seconds / 60, curves
+def caught_around(turned):
+    """Discs of either colour caught per minute around half-time: their minutes since then, and {name: (runs, minutes)}.
+
+    Runs last 200 minutes; in shorter ones the stretches are shorter, and at least a bin.
+    """
+    results = [*turned.values()]
+    edges = np.linspace(0.45, 0.7, 1 + min(50, min(result.rewards.shape[1] for result in results) // 5))
+    curves = {name: np.stack([60 * result.hit_rate(*pair).sum(axis=1) for pair in zip(edges[:-1], edges[1:])], axis=1)
+              for name, result in turned.items()}
+    return ((edges[:-1] + edges[1:]) / 2 - 0.5) * results[0].seconds / 60, curves
 
 
 def draw_distances(moved):
-    """Draw the distance of agents from a desired place over all its moves. moved: a `trials.Moved`."""
-    starts = SECONDS_A_MOVE * np.arange(moved.distances["experienced"].shape[1])
-    curves = {name: each.reshape(len(each), -1) for name, each in moved.distances.items()}
-    draw_curves((starts[:, None] + moved.seconds).ravel(), curves, "seconds", "distance, board widths")
+    """Draw the distance of agents from a desired place over all its moves. moved: {agents: `trials.Moved`}."""
+    first = next(iter(moved.values()))
+    starts = SECONDS_A_MOVE * np.arange(first.distances["experienced"].shape[1])
+    curves = {f"{agents}, {name}": each.reshape(len(each), -1) for agents, of_agents in moved.items()
+              for name, each in of_agents.distances.items()}
+    draw_curves((starts[:, None] + first.seconds).ravel(), curves, "seconds", "distance, board widths")

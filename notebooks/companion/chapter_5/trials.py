@@ -29,6 +29,11 @@ class Moved(NamedTuple):
     distances: dict  # {"experienced": (runs, moves, samples), "ignorant": the same}
     seconds: np.ndarray  # from the move to each sample
 
+    @property
+    def means(self):
+        """The mean distance after each move: {"experienced": (runs, moves), "ignorant": the same}."""
+        return {group: each.mean(axis=2) for group, each in self.distances.items()}
+
 
 class Costs(NamedTuple):
     """Microseconds per step on one core, each (repetitions,), of agents that all move identically."""
@@ -52,8 +57,8 @@ class Costs(NamedTuple):
 
 
 def desiring(agent, place):
-    """An agent of place cells, with a place as its only desire."""
-    return replace(agent, desires=[Desire(place, "PC", valence=1.0)])
+    """An agent that desires a place alone, with each of its nodes."""
+    return replace(agent, desires=[Desire(place, node.name, valence=1.0) for node in agent.nodes])
 
 
 def distances(condition):
@@ -84,9 +89,9 @@ def distances(condition):
 
 
 def roaming(revalued, seconds=100):
-    """How far agents roam before a result's only change and at its end, in board widths: (2, runs).
+    """How far agents roam before a result's only change and at its end, in board widths: (2, runs, 2).
 
-    It is the root mean square distance of an agent from its mean position.
+    It is the standard deviation of each coordinate of their positions.
     """
     world, ((turn, agent),) = revalued.world, revalued.changes
     path_steps = min(seconds * world.fps, turn, revalued.steps - turn)
@@ -97,10 +102,9 @@ def roaming(revalued, seconds=100):
         before = run.record(path_steps)
         run.change(agent)
         run.advance(revalued.steps - turn - path_steps)
-        return [np.sqrt(path.positions[1:].var(axis=0).sum()) / world.size
-                for path in (before, run.record(path_steps))]
+        return [path.positions[1:].std(axis=0) / world.size for path in (before, run.record(path_steps))]
 
-    return of_runs(of_run, revalued.agent, world, revalued.runs).T
+    return of_runs(of_run, revalued.agent, world, revalued.runs).swapaxes(0, 1)
 
 
 def measure_costs(condition):

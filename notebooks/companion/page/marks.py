@@ -20,10 +20,12 @@ class Mark(NamedTuple):
 
 NONE = Mark("◇", "verdict-none")  # not a dash, which a number turns into a minus sign
 MARKS = dict(zip(VERDICTS, (Mark("●", "verdict-reproduced"), Mark("◐", "verdict-partly"),
-                            Mark("○", "verdict-contradicted"), Mark("?", "verdict-none"), NONE,
+                            Mark("○", "verdict-contradicted"), Mark("⊘", "verdict-partly"),
+                            Mark("?", "verdict-none"), NONE,
                             Mark("∎", "verdict-contradicted"), Mark("∃", "verdict-contradicted"), NONE), strict=True)
              ) | {NOT_COMPUTED: NONE}
-REASONS = {"undecided": "more runs would tell", "not testable": "the agents learned too little"}
+REASONS = {"not as a whole": "whether a part holds is open", "undecided": "more runs would tell",
+           "not testable": "the agents learned too little"}
 DECIDED = {True: "✓", False: "✗", None: "?"}  # whether an interval is as a rule asks, see `Bounds.decide`
 
 

@@ -23,7 +23,7 @@ from neorl.files import cache_folder, write_whole
 
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
 LEGEND = (f"{legend()}; without a symbol, no verdict. Numbers: the quantities in italics, with 95\u00a0% intervals "
-          "over runs. Intervals of times reach further down than up, since noise reaches a level early. A claim's name "
+          "over runs, or where a verdict rests on several, intervals that hold together with 95\u00a0%. A claim's name "
           "leads to what its verdict rests on.")
 BESIDE = "Demonstrations of this book, not counted among the claims:"
 PART_OF = {"calibrated": "claims", "letter": "letter"}  # of readings
@@ -109,7 +109,8 @@ def rows(record, names):
 def numbers(record, name):
     """The numbers of a claim under both readings, with the bounds that its rule asks for, as a Markdown table or "".
 
-    A number has a mark if it decides: ✓, ✗ or ?. A part of the claim says so in its bounds.
+    A number has a mark if it decides: ✓, ✗ or ?. A part of the claim says so in its bounds. A sentence says how wide
+    the intervals are.
     """
     found = {reading: record[part][name] for reading, part in (("Here", "claims"), ("To the letter", "letter"))
              if name in record[part]}
@@ -117,7 +118,10 @@ def numbers(record, name):
     rows = [[what, rule, *(_marked(*each["numbers"].get(what, MISSING)) for each in found.values())]
             for what, rule in rules.items()]
     head = ["Number", "Rule", *(f"{reading}, {each['runs']} runs or more" for reading, each in found.items())]
-    return wording.table(head, rows) if rows else ""
+    together = max(each["together"] for each in found.values()) if found else 1
+    note = (f"\n\nThe verdict rests on {together} intervals, so that each is one of {100 - 5 / together:.2f}\u00a0%: "
+            "all hold together with 95\u00a0%." if together > 1 else "")
+    return wording.table(head, rows) + note if rows else ""
 
 
 def label(rule):
@@ -128,6 +132,7 @@ def label(rule):
 def kept(claims):
     """Claims as a record has them: {name: data}."""
     return {claim.name: {"here": _bounded(claim.here), "runs": claim.runs, "verdict": claim.verdict,
+                         "together": claim.together, "parts": claim.parts,
                          "numbers": {what: [_bounded(found), *_decided(found, bounds, role)]
                                      for what, (found, bounds, role) in claim.numbers.items()}} for claim in claims}
 

@@ -12,14 +12,14 @@ from companion.paper_b.trials import values_for_objects
 from companion.page.panels import add_arrow
 from companion.page.style import FILL, mark
 from companion.page.thesis_figures import draw_against_thesis
-from companion.page.wording import number, table
+from companion.page.wording import table
 from neorl.core.maps import NresMap
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 from neorl.drawing.boards import as_board, draw_tank, new_boards
 from neorl.drawing.style import AGENT, GREEN, INK
 from neorl.drawing.value_maps import draw_cells, draw_values
+from companion.thesis.measures import minutes_to_own_level
 from companion.thesis.statements import STATEMENTS
-from neorl.statistics import minutes_to_own_level
 
 OBJECT = (0.8, -0.4)  # where the object is as seen from the self, in board widths
 DISC = 0.09  # radius of either, larger than in the tank
@@ -29,7 +29,6 @@ B3, B4 = STATEMENTS["B3"], STATEMENTS["B4"]
 PC = B3.also["place cells"].number  # per second, and of object-vector cells too: "no loss", section 3.1
 THESIS_LEVELS = {"PC": PC, "OVC": PC, "PC + OVC": B3.bounds.number}
 THESIS_MINUTES = {"PC + OVC": f"{B4.bounds.number:g}", "PC": f"> {B4.also['place cells'].number:g}"}
-WINDOWS = (60, 120, 300, 600)  # seconds, of the mean whose level is reached
 TUNINGS = {("component", "component"): "cartesian", ("margin", "margin"): "proximal",
            ("length", "direction"): "polar", ("direction",): "angle", ("length",): "length"}
 FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}
@@ -42,10 +41,9 @@ def draw_final_levels(levels, of_paper):
 
 
 def paces(paced, of_paper):
-    """The minutes to the final level as a Markdown table, for windows of several widths too. paced: of long runs."""
-    return table(["Agents", "Thesis", "Here", *(f"{width} s" for width in WINDOWS)], [
-        [CELLS[agent], THESIS_MINUTES[agent] if of_paper else "–", minutes_to_own_level(paced[agent]),
-         *(number(minutes_to_own_level(paced[agent], window=width).value) for width in WINDOWS)]
+    """The minutes to the final level as a Markdown table. paced: {agent: `Result`} of long runs."""
+    return table(["Agents", "Thesis", "Here"], [
+        [CELLS[agent], THESIS_MINUTES[agent] if of_paper else "–", minutes_to_own_level(paced[agent])]
         for agent in THESIS_MINUTES])
 
 

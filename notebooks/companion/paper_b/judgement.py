@@ -28,5 +28,6 @@ def judge(ran, reading, paced, paying, joined, stays):
                            replace(both, world=replace(both.world, win_reward=PAYING)))
     found += judging.judge(lambda: [claims.judge_joining(joined, compared["place"], compared["control"])],
                            compared | {"joined": joined}, {"joined": changed, "place": place, "control": control})
-    found += judging.judge(lambda: [claims.judge_time_scale(PRIMES, stays.seconds)], stays.condition, place)
+    found += judging.judge(lambda: [claims.judge_time_scale(PRIMES, stays.seconds, stays.without)], stays.condition,
+                           place)
     return sorted(found, key=lambda claim: [*STATEMENTS].index(claim.name))

@@ -3,11 +3,13 @@
 They measure the time spent in a cell of a map, the size of values, and what a map of object vectors has learned.
 """
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from companion.shared.runs import each_run
+from neorl.agents.rules import Policy
 from neorl.experiments.condition import Condition
 from neorl.experiments.run import Run
 from neorl.experiments.simulation import usable_threads
@@ -20,6 +22,7 @@ class Stays(NamedTuple):
 
     condition: Condition
     seconds: np.ndarray  # (runs, maps)
+    without: dict  # the same of motion without values, {name: (runs, maps)}
 
 
 def mean_stays(condition):
@@ -27,7 +30,16 @@ def mean_stays(condition):
 
     They run for a quarter of its steps first and are then measured for as long, at most 15,000 steps. A board's reset,
     which puts an agent elsewhere, does not count as a change of cell; without any change, a stay is the time measured.
+    Beside them stand Brownian motion and agents that have learned nothing, in the same cells.
     """
+    agent = condition.agent
+    without = {"Brownian motion": replace(agent, policy=Policy(1.0, "random")),
+               "agents that have learned nothing": replace(agent, learning=replace(agent.learning, learning_rate=0.0))}
+    return Stays(condition, _stays(condition),
+                 {name: _stays(replace(condition, agent=each)) for name, each in without.items()})
+
+
+def _stays(condition):
     agent, world = condition.agent, condition.world
     lived = round(LIVED * condition.steps)
     path_steps = max(1, min(lived, 15_000))
@@ -40,7 +52,7 @@ def mean_stays(condition):
         changes = [((np.diff(each.encode(path.positions / world.size)) != 0) & moved).sum() for each in agent.maps]
         return path_steps / world.fps / np.maximum(changes, 1)
 
-    return Stays(condition, of_runs(of_run, agent, world, condition.runs))
+    return of_runs(of_run, agent, world, condition.runs)
 
 
 def mean_values(agent, world, steps, runs, seed=0):

@@ -4,7 +4,7 @@ from companion.thesis import claims, pins
 from companion.thesis.priors import WITHIN
 from companion.thesis.reading import (GROUPS, LAYERS, NAMES, PRIMES, READINGS, TO_THE_LETTER, Reading, additions,
                                       changed, conditions, judge, named)
-from companion.thesis.verdict import EARLY, FINAL
+from companion.thesis.measures import EARLY, FINAL
 
 __all__ = ["EARLY", "FINAL", "GROUPS", "LAYERS", "NAMES", "PRIMES", "READINGS", "Reading", "TO_THE_LETTER", "WITHIN",
            "additions", "changed", "claims", "conditions", "judge", "named", "pins"]

@@ -11,4 +11,4 @@ from companion.thesis.rules_chapters import (judge_changes, judge_composition, j
 from companion.thesis.rules_papers import (judge_alternatives, judge_exploration, judge_joining, judge_margin,
                                            judge_modalities, judge_multiple_layers, judge_networks, judge_pace,
                                            judge_points, judge_resolutions, judge_single_layer, judge_untrained)
-from companion.thesis.verdict import EARLY, FINAL, RUNS_FOR_A_VERDICT, VERDICTS, Claim
+from companion.thesis.verdict import RUNS_FOR_A_VERDICT, VERDICTS, Claim

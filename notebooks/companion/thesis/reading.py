@@ -24,6 +24,7 @@ VECTORS = ("by size", "signed")
 PAPER_FPS = 50  # steps per second at which lengths are given
 LENGTHS = {"A": 150_000, "B": 600_000, "C": 300_000}  # of the papers' runs, in steps
 LONGER = 16  # times as long are the runs that measure the time to the final level
+BLOCKS = 8  # times as long as paper A's are the runs that show where single maps end
 CONTROLS = 8  # times as many runs of Brownian motion, which most readings share
 
 # The conditions of each group.
@@ -32,9 +33,10 @@ GROUPS = {
     "single": (("brownian", 8), *(("single", n) for n in SINGLE)),
     "modal": (("brownian", 3), ("place", "all"), ("objects", "all"), "both"),
     "networks": (("brownian", 3), *(("network", name) for name in "ABCD")),
-    "revaluing": ("revalued", "wanting"),
+    "revaluing": (("brownian", 3), "revalued", "frozen", "wanting"),
     "resolutions": (("brownian", 3), *((modality, n) for modality in ("place", "objects") for n in PRIMES)),
     "pace": (("brownian", 3), ("pace", "place"), ("pace", "both")),
+    "long": tuple(("long", n) for n in SINGLE),
 }
 
 
@@ -148,7 +150,8 @@ def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
     steps: of a run at 50 steps per second, but no more than the paper's. At other rates runs of papers B and C last the
     same simulated time, and those of paper A have the same steps. For B4 runs are 16 times as long and half as many,
     but at least two, unless steps reach paper B's length. Brownian motion with 8 creeps always runs as long as in paper
-    A, which reports no reset in that time.
+    A, which reports no reset in that time. "revalued" wants red creeps too from half-time on, "frozen" does and learns
+    no more from there, and "wanting" wants them from the start.
     seed: integer ≥ 0. groups: names in `GROUPS`, which has the keys of each.
     Raises ValueError for anything else.
     """
@@ -165,8 +168,8 @@ def _all_conditions(reading, steps, runs, seed):
     three = replace(reading.world, n_creeps=3, win_reward=0.0)
     each = reading.agents
 
-    def living(agent, paper, length=steps, runs=runs):
-        world, length = (eight if paper == "A" else three), min(length, LENGTHS[paper])
+    def living(agent, paper, length=steps, runs=runs, blocks=1):
+        world, length = (eight if paper == "A" else three), blocks * min(length, LENGTHS[paper])
         length = length if paper == "A" else max(1, round(length * reading.world.fps / PAPER_FPS))
         return Condition(agent, world, length, runs, seed)
 
@@ -175,6 +178,7 @@ def _all_conditions(reading, steps, runs, seed):
     made |= {("layer", n): living(papers.place_cells([n], **each), "A") for n in LAYERS}
     made["layers"] = living(papers.place_cells(LAYERS, **each), "A")
     made |= {("single", n): living(papers.place_cells([n], **each), "A") for n in SINGLE}
+    made |= {("long", n): living(papers.place_cells([n], **each), "A", blocks=BLOCKS) for n in SINGLE}
     for name, chosen in {**{n: [n] for n in PRIMES}, "all": PRIMES}.items():
         made["place", name] = living(papers.place_cells(chosen, **each), "B")
         made["objects", name] = living(papers.object_vector_cells(chosen, **each), "B")
@@ -185,7 +189,9 @@ def _all_conditions(reading, steps, runs, seed):
              (("place", made["place", "all"].agent), ("both", both))}
     made |= {("network", name): living(agent, "C") for name, agent in networks(reading).items()}
     wanting = replace(both, desires=[replace(desire, valence=1.0) for desire in both.desires])
-    made["revalued"] = replace(made["both"], changes=((made["both"].steps // 2, wanting),))
+    half = made["both"].steps // 2
+    frozen = replace(wanting, learning=replace(wanting.learning, learning_rate=0.0))
+    made["revalued"], made["frozen"] = (replace(made["both"], changes=((half, then),)) for then in (wanting, frozen))
     made["wanting"] = replace(made["both"], agent=wanting)
     return made
 
@@ -203,21 +209,22 @@ def networks(reading: Reading) -> dict[str, Agent]:
 def judge(results):
     """Judge the claims for which the results of a reading's conditions suffice: {name: `Claim`}, in their order.
 
-    results: {key: `Result`}, of all groups or of some.
+    results: {key: `Result`}, of all groups or of some; under "moved" the distances to places that move, for T1, see
+        `judge_changes`.
     """
     by = {name: {key[1]: result for key, result in results.items() if key[0] == name}
-          for name in ("brownian", "layer", "single", "place", "objects", "pace", "network")}
+          for name in ("brownian", "layer", "single", "long", "place", "objects", "pace", "network")}
 
     def complete(*groups):
         return all(key in results for group in groups for key in GROUPS[group])
 
     judged = []
     if complete("single"):
-        judged += claims.judge_single_layer(by["single"], by["brownian"][8])
+        judged += claims.judge_single_layer(by["single"], by["brownian"][8], by["long"])
     if complete("layers"):
         judged += claims.judge_multiple_layers(by["layer"], results["layers"], by["brownian"][8])
     if complete("layers", "single"):
-        judged += [claims.judge_margin(by["layer"] | by["single"], results["layers"], by["brownian"][8])]
+        judged += [claims.judge_margin(by["layer"] | by["single"], by["brownian"][8])]
     if complete("modal"):
         judged += claims.judge_modalities(by["place"]["all"], by["objects"]["all"], results["both"], by["brownian"][3])
     if complete("modal", "resolutions"):
@@ -226,8 +233,9 @@ def judge(results):
         judged += [claims.judge_pace(**by["pace"], brownian=by["brownian"][3])]
     if complete("networks"):
         judged += claims.judge_networks(*(by["network"][name] for name in "ABCD"), by["brownian"][3])
-    if complete("revaluing"):
-        judged += [claims.judge_changes(results["revalued"], results["wanting"])]
+    if complete("revaluing") and "moved" in results:
+        judged += [claims.judge_changes({name: results[name] for name in ("revalued", "frozen", "wanting")},
+                                        by["brownian"][3], results["moved"])]
     if complete("layers", "modal", "resolutions"):
         judged += [claims.judge_more_maps(additions(results))]
     order = [*STATEMENTS].index
@@ -235,13 +243,17 @@ def judge(results):
 
 
 def additions(results):
-    """The comparisons of `judge_more_maps`: {what is added: (with more maps, each with fewer, Brownian motion)}.
+    """The comparisons of `judge_more_maps`: {what is added: (with more maps, {which: with fewer}, Brownian motion)}.
 
     results: {key: `Result`}, of at least the groups "layers", "modal" and "resolutions".
     """
     eight, three = results["brownian", 8], results["brownian", 3]
     place, objects = results["place", "all"], results["objects", "all"]
-    return {"resolutions of place, paper A": (results["layers"], [results["layer", n] for n in LAYERS], eight),
-            "resolutions of place": (place, [results["place", n] for n in PRIMES], three),
-            "resolutions of object vectors": (objects, [results["objects", n] for n in PRIMES], three),
-            "a modality": (results["both"], [place, objects], three)}
+
+    def alone(name, resolutions):
+        return {f"N{n}": results[name, n] for n in resolutions}
+
+    return {"resolutions of place, paper A": (results["layers"], alone("layer", LAYERS), eight),
+            "resolutions of place": (place, alone("place", PRIMES), three),
+            "resolutions of object vectors": (objects, alone("objects", PRIMES), three),
+            "a modality": (results["both"], {"place cells": place, "object-vector cells": objects}, three)}

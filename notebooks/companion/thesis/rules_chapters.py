@@ -5,37 +5,54 @@
 
 import numpy as np
 
-from companion.thesis.statements import POSITIVE
-from neorl.statistics import (HALF_A_MINUTE, Estimate, difference, estimate, exact, least, minutes_sooner, most,
-                              probability_of_improvement, quotient, ratio)
-from companion.thesis.verdict import AFTER_TURN, BEFORE_TURN, FINAL, all_of, any_of, fewest_runs, judged, learned
+from companion.thesis.measures import FINAL, exact, least, minutes_sooner, most, share_of_lead
+from companion.thesis.statements import POSITIVE, STATEMENTS
+from companion.thesis.verdict import AFTER_TURN, all_of, any_of, fewest_runs, judged, learned
+from neorl.statistics import difference, estimate, probability_of_improvement, quotient, ratio
+
+MINUTES = {"5 minutes before": (0.475, 0.5), "first minute": (0.5, 0.505), "minutes 2 to 5": (0.505, 0.525),
+           "after half an hour": (0.65, 0.675), "after 60 to 100 minutes": (0.8, 1.0)}  # shares of 200 minutes
+ABOVE_CHANCE, NEARER, NO_FARTHER = STATEMENTS["T1"].also
 
 
-def judge_changes(revalued, wanting, moved=None):
-    """Claim T1 on revaluing elements, and on its page also on moving them.
+def judge_changes(turned, brownian, moved):
+    """Claim T1, on revaluing elements and on moving them.
 
-    revalued: the `Result` of agents that desire red creeps too, from half-time on. wanting: that of agents that desired
-        them from the start, in runs of the same length.
+    turned: {"revalued": the `Result` of agents that desire red creeps too from half-time on, "frozen": that of the same
+    agents, which learn no more from there, "wanting": that of agents that desired them from the start}, of runs of one
+    length, 200 minutes at best. brownian: Brownian motion on the same board.
     moved: mean distances, in board widths, to a desired place in the time after each of its moves between two points:
-        {"experienced": (runs, moves), "ignorant": (runs, moves)}, an even number of moves, 4 or more, of agents with
-        and without experience among creeps. Readings are judged without it, by revaluing alone.
+    {"both": {"experienced": (runs, moves), "ignorant": (runs, moves)}, "place cells": the same}, an even number of
+    moves, 4 or more, of agents with and without experience among creeps. Agents with both modalities decide.
     Returns a `Claim`.
     """
-    before, after, from_the_start = (_red_a_minute(result, *share) for result, share in (
-        (revalued, BEFORE_TURN), (revalued, AFTER_TURN), (wanting, AFTER_TURN)))
-    asked = {}
-    if moved:
-        first, later = moved["experienced"][:, :2].mean(axis=1), moved["experienced"][:, 2:].mean(axis=1)
-        asked = {"moved": estimate(_share_of_rise, moved["ignorant"][:, :2].mean(axis=1), first, later)}
-    per_minute = {"before the turn": before, "after it": after, "wanted from the start": from_the_start}
-    return judged("T1", estimate(_share_of_rise, before, from_the_start, after), fewest_runs(revalued, wanting), asked,
-                  {"per minute": {when: estimate(np.mean, rate) for when, rate in per_minute.items()}})
+    after, frozen = (caught_a_minute(turned[name], "first minute") for name in ("revalued", "frozen"))
+    chance = 60 * brownian.hit_rate().sum(axis=1)
+    first, later = _visits(moved["both"]["experienced"])
+    ignorant, _ = _visits(moved["both"]["ignorant"])
+    shown = {f"caught a minute, {when}": estimate(np.mean, caught_a_minute(turned["revalued"], when))
+             for when in MINUTES}
+    shown |= {f"caught in the first minute, {who}": estimate(np.mean, each) for who, each in (
+        ("learning off", frozen), ("wanted from the start", caught_a_minute(turned["wanting"], "first minute")),
+        ("Brownian motion", chance))}
+    shown |= {f"distance at {when} visits, {who} with {agents}": estimate(np.mean, each)
+              for agents, distances in moved.items() for who, of_moves in distances.items()
+              for when, each in zip(("the first two", "later"), _visits(of_moves))}
+    return judged("T1", estimate(share_of_lead, after, chance, frozen), fewest_runs(*turned.values()),
+                  {ABOVE_CHANCE: estimate(difference, after, chance), NEARER: estimate(difference, ignorant, first),
+                   NO_FARTHER: estimate(ratio, first, later)}, shown=shown,
+                  parts=[(STATEMENTS["T1"].statistic, ABOVE_CHANCE), (NEARER, NO_FARTHER)])
 
 
-def _share_of_rise(start, end, reached, axis):
-    """The share of the way from one mean to another that a third has come."""
-    base = start.mean(axis)
-    return quotient(reached.mean(axis) - base, end.mean(axis) - base)
+def caught_a_minute(result, when):
+    """The creeps of either colour that each run catches a minute in one of `MINUTES`, (runs,)."""
+    begin, end = MINUTES[when]
+    return 60 * result.hit_rate(begin, max(end, begin + 1.01 / result.rewards.shape[1])).sum(axis=1)
+
+
+def _visits(distances):
+    """The mean distances at the first two visits and at later ones, (runs,) each."""
+    return distances[:, :2].mean(axis=1), distances[:, 2:].mean(axis=1)
 
 
 def judge_cost(together, alone, none):
@@ -56,8 +73,7 @@ def judge_temporality(whole, short):
     Returns a `Claim`.
     """
     loss = {name: estimate(_loss, whole[name], short[name]) for name in whole}
-    return judged("T3", min(loss.values(), key=lambda each: each.value),
-                  min(map(len, (*whole.values(), *short.values()))), {"loss": loss},
+    return judged("T3", (least, "loss"), min(map(len, (*whole.values(), *short.values()))), {"loss": loss},
                   testable=all_of([POSITIVE.decide(estimate(np.mean, above)) for above in whole.values()]))
 
 
@@ -70,7 +86,7 @@ def judge_tables(states, values, entries, filled):
     """
     value, entry, full = (estimate(np.mean, _powers(np.log(states), np.log(table)))
                           for table in (values, entries, filled))
-    return judged("T4", entry, len(values), {"values": value}, {"entries that differ from 0": full})
+    return judged("T4", entry, len(values), {"values": value}, shown={"entries that differ from 0": full})
 
 
 def judge_real_time(load, delay, beside=None):
@@ -83,31 +99,36 @@ def judge_real_time(load, delay, beside=None):
     """
     busy = {} if beside is None else {"processes per core just before": exact(beside)}
     return judged("T5", estimate(np.mean, load), len(load), {"steps late": exact(delay.max())},
-                  {"share of steps done late": estimate(np.mean, (delay > 1).mean(axis=1)), **busy})
+                  shown={"share of steps done late": estimate(np.mean, (delay > 1).mean(axis=1)), **busy})
 
 
 def judge_more_maps(additions):
-    """Claim T6, from agents with more maps, compared with agents with some of these.
+    """Claim T6, from agents with more maps, compared with each of the agents with some of these.
 
-    additions: {what is added: (more, fewer, brownian)}. more: the `Result` of the agent with more maps. fewer: a
-    sequence of those of the agents with fewer, in runs of the same length. brownian: Brownian motion on the same board.
+    additions: {what is added: (more, fewer, brownian)}. more: the `Result` of the agent with more maps. fewer: {which:
+    those of the agents with fewer}, in runs of the same length. brownian: Brownian motion on the same board.
     Returns a `Claim`.
     """
-    known = {name: any_of([learned(result, brownian) for result in fewer])
+    known = {name: any_of([learned(result, brownian) for result in fewer.values()])
              for name, (_, fewer, brownian) in additions.items()}
     counted = [name for name in additions if known[name] is not False] or list(additions)  # where some have learned
-    sooner = {name: sooner_with_more(*additions[name][:2]) for name in counted}
-    return judged("T6", least(sooner.values()), min(fewest_runs(more, *fewer) for more, fewer, _ in additions.values()),
-                  {"minutes sooner": sooner}, testable=any_of(known.values()))
+    sooner = {f"{name}, over {which}": minutes for name in counted
+              for which, minutes in sooner_with_more(*additions[name][:2]).items()}
+    lead = {f"{name}, over {which}": estimate(difference, additions[name][0].rate(*FINAL), result.rate(*FINAL))
+            for name in counted for which, result in additions[name][1].items()}
+    return judged("T6", (least, "minutes sooner"),
+                  min(fewest_runs(more, *fewer.values()) for more, fewer, _ in additions.values()),
+                  {"minutes sooner": sooner, "final lead": lead}, parts=[("minutes sooner",), ("final lead",)],
+                  testable=any_of(known.values()))
 
 
 def sooner_with_more(more, fewer):
-    """The lead in minutes of agents with more maps over the quickest with fewer, at half the best one's final level.
+    """The leads in minutes of agents with more maps over each with fewer, at half the final level of the best of these.
 
-    more: a `Result`. fewer: a sequence. Returns an `Estimate`.
+    more: a `Result`. fewer: {which: `Result`}. Returns {which: `Estimate`}.
     """
-    level = 0.5 * max(result.rate(*FINAL).mean() for result in fewer)
-    return least([minutes_sooner(more, result, level, HALF_A_MINUTE) for result in fewer])
+    level = 0.5 * max(result.rate(*FINAL).mean() for result in fewer.values())
+    return {which: minutes_sooner(more, result, level) for which, result in fewer.items()}
 
 
 def judge_persistence(agents):
@@ -121,31 +142,34 @@ def judge_persistence(agents):
     share, lead = {}, {}
     for name, (persistent, per_step, brownian) in agents.items():
         step = max((each.rate(*FINAL) for each in per_step.values()), key=np.mean)
-        share[name] = estimate(_share_of_lead, step, persistent.rate(*FINAL), brownian.rate())
+        share[name] = estimate(_share_of_gain, step, persistent.rate(*FINAL), brownian.rate())
         lead[name] = estimate(difference, persistent.rate(*FINAL), step)
     known = {name: learned(persistent, brownian) for name, (persistent, _, brownian) in agents.items()}
     counted = [name for name in agents if known[name] is not False] or list(agents)
-    return judged("T7", most([share[name] for name in counted]),
-                  min(fewest_runs(persistent, *per_step.values()) for persistent, per_step, _ in agents.values()),
+    runs = min(fewest_runs(persistent, *per_step.values()) for persistent, per_step, _ in agents.values())
+    return judged("T7", (most, "gain"), runs,
                   {"gain": {name: share[name] for name in counted}},
-                  part={"lead at changes of cell": {name: lead[name] for name in counted}},
-                  testable=any_of(known.values()))
+                  {"lead at changes of cell": {name: lead[name] for name in counted}}, testable=any_of(known.values()))
 
 
-def judge_time_scale(resolutions, stays):
+def judge_time_scale(resolutions, stays, without):
     """Claim T8, from how long agents stay in the cells of maps of several resolutions.
 
     resolutions: N of each map, (maps,). stays: the mean time from one change of cell to the next, (runs, maps), in
-    any unit.
+    any unit. without: {name: the same}, of motion without values, in the same maps: what the relation has to exceed.
     Returns a `Claim`.
     """
     order = np.argsort(resolutions)[::-1]
     width, time = -np.log(np.asarray(resolutions, float)[order]), np.log(stays)[:, order]
-    power = estimate(np.mean, _powers(width, time))
+    powers = _powers(width, time)
     coarser = [f"N{resolutions[at]}" for at in order[1:]]
     longer = dict(zip(coarser, (estimate(np.mean, each) for each in np.diff(time, axis=1).T)))
-    return judged("T8", power, len(stays), {"longer in the next coarser map": longer},
-                  part={"exponent": power})
+    alone = {name: _powers(width, np.log(each)[:, order]) for name, each in without.items()}
+    return judged("T8", estimate(np.mean, powers), len(stays),
+                  {"longer in the next coarser map": longer, "above that of motion without values": {
+                      name: estimate(difference, powers, each) for name, each in alone.items()}},
+                  shown={"exponent": {name: estimate(np.mean, each) for name, each in alone.items()}},
+                  parts=[(STATEMENTS["T8"].statistic, "longer in the next coarser map")])
 
 
 def judge_latent_learning(agent, rivals, first_reward=11):
@@ -159,16 +183,13 @@ def judge_latent_learning(agent, rivals, first_reward=11):
     lead = _more_errors(agent, "delayed", "throughout", after)
     at_once = _more_errors(agent, "delayed", "throughout", next_day)
     worth = _more_errors(agent, "never", "throughout", after)
-    level = Estimate(*(quotient(each, worth.value) for each in most([lead, at_once])))
+    level = most([lead, at_once])
+    level = type(level)(*(quotient(each, worth.value) for each in level))
     return judged("H1", lead, min(len(record.errors) for record in agent.values()),
-                  shown={"on the day after the first reward": at_once, "effect of reward": worth, **{
-                      f"with {name}": _more_errors(groups, "delayed", "throughout", after)
-                      for name, groups in rivals.items()}},
-                  part={"level": level}, testable=POSITIVE.decide(worth))
-
-
-def _red_a_minute(result, begin, end):
-    return 60 * result.hit_rate(begin, end)[:, 1]
+                  also={"level": level}, shown={
+                      "on the day after the first reward": at_once, "effect of reward": worth, **{
+                          f"with {name}": _more_errors(groups, "delayed", "throughout", after)
+                          for name, groups in rivals.items()}}, testable=POSITIVE.decide(worth))
 
 
 def _powers(xs, ys):
@@ -180,7 +201,7 @@ def _loss(whole, short, axis):
     return 1 - ratio(short, whole, axis)
 
 
-def _share_of_lead(step, cell, chance, axis):
+def _share_of_gain(step, cell, chance, axis):
     base = chance.mean(axis)
     return quotient(step.mean(axis) - base, cell.mean(axis) - base)
 
@@ -202,7 +223,7 @@ def judge_efficiency(agent, table, chance):
     """
     share, gain = estimate(ratio, agent, table), estimate(difference, chance, agent)
     return judged("G1", share, min(map(len, (agent, table, chance))), {"seconds less than at random": gain},
-                  part={"share of the quicker of both": estimate(_share_of_less, agent, table, chance)})
+                  {"share of the quicker of both": estimate(_share_of_less, agent, table, chance)})
 
 
 def _share_of_less(steps, one, other, axis):
@@ -215,8 +236,8 @@ def judge_generality(scores):
     Returns a `Claim`.
     """
     better = {world: probability_of_improvement(*pair) for world, pair in scores.items()}
-    return judged("G2", least(better.values()),
-                  min(len(each) for pair in scores.values() for each in pair), {"world": better})
+    return judged("G2", (least, "world"), min(len(each) for pair in scores.values() for each in pair),
+                  {"world": better})
 
 
 def judge_composition(apart, whole, chance):
@@ -229,8 +250,7 @@ def judge_composition(apart, whole, chance):
     """
     cost, gain = estimate(ratio, apart, whole), estimate(ratio, chance, apart)
     return judged("G3", cost, min(map(len, (apart, whole, chance))), {"random agents": gain},
-                  part={"share of twice as many, or of random agents'": estimate(
-                      _share_of_less, apart, 2 * whole, chance)})
+                  {"share of twice as many, or of random agents'": estimate(_share_of_less, apart, 2 * whole, chance)})
 
 
 def judge_extension(joined, alone, chance):

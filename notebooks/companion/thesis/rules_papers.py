@@ -3,24 +3,27 @@
 `companion.thesis.verdict` defines verdicts.
 """
 
+from itertools import combinations
+
 import numpy as np
 
+from companion.thesis.measures import (EARLY, FINAL, evenness, exact, lead_over_sum, learning_minutes, least,
+                                       minutes_sooner, minutes_to_own_level, most, rank_correlation, share_over_sum,
+                                       strength)
 from companion.thesis.statements import STATEMENTS
-from neorl.statistics import (HALF_A_MINUTE, Estimate, difference, estimate, exact, lead_over_best, lead_over_sum,
-                              least, minutes_sooner, minutes_to_own_level, most, points, probability_of_improvement,
-                              quotient, rank_correlation, ratio, resets)
-from companion.thesis.verdict import (AFTER_TURN, EARLY, FINAL, MIDDLE, all_of, any_of, fewest_runs, judged,
-                                      lead_over_brownian, leads, learned, share_of_run)
+from companion.thesis.verdict import (AFTER_TURN, all_of, any_of, fewest_runs, judged, lead_over_brownian, leads,
+                                      learned, share_of_run)
+from neorl.statistics import (difference, estimate, points, probability_of_improvement, quotient, ratio, resets)
 
 LENGTH = 150_000  # of the runs of paper A, in steps
 POINTS_PER_RESET = 24 / 7  # expected, whatever the agent does: points and twice the green creeps are a martingale
 
 
-def judge_single_layer(by_resolution, brownian):
+def judge_single_layer(by_resolution, brownian, long=None):
     """Claims A1–A5 and A11 of paper A, from its figure 6.
 
     by_resolution: {N: `Result`} for N 10, 30, 50, 70, 90. brownian: the `Result` of the control, in which the last
-    green creep brings an extra reward.
+    green creep brings an extra reward. long: {N: `Result`} of longer runs of the same agents, which are only shown.
     Returns a list of `Claim`s.
     """
     runs = fewest_runs(*by_resolution.values(), brownian)
@@ -36,54 +39,44 @@ def judge_single_layer(by_resolution, brownian):
     some_learned = any_of(map(leads, lead.values()))
     smallest = min(lead, key=lambda n: lead[n].low)
     chance = probability_of_improvement(rate[smallest], brownian.rate())
-    a2 = judged("A2", least(lead.values()), runs, {"lead": _of_maps(lead)},
-                {"score in 150,000 steps": scores,
-                 "probability that a run beats one of the control": _of_maps({smallest: chance})})
+    a2 = judged("A2", (least, "lead"), runs, {"lead": _of_maps(lead)},
+                shown={"score in 150,000 steps": scores,
+                       "probability that a run beats one of the control": _of_maps({smallest: chance})})
 
-    others = [values for n, values in rate.items() if n != 50]
-    ends = estimate(lead_over_best, rate[50], rate[10], rate[90])
-    a4 = judged("A4", estimate(lead_over_best, rate[50], *others), runs, shown={"reward per second": _of_maps(
-        {n: estimate(np.mean, values) for n, values in rate.items()})},
-        part={"over the better of N10 and N90": ends}, testable=some_learned)
-
-    spread = minutes_to_own_level(*by_resolution.values(), share=0.5, of=_least_of_most)
-    pair = minutes_to_own_level(by_resolution[70], by_resolution[10], share=0.5, of=quotient)
-    took = {n: minutes_to_own_level(by_resolution[n], share=0.5) for n in rate}
-    a5 = judged("A5", spread, runs, shown={"minutes": _of_maps(took)}, part={"N70 to N10": pair},
+    early, final = ({n: by_resolution[n].rate(*when) for n in rate} for when in (EARLY, FINAL))
+    a3 = judged("A3", (most, _of_maps({n: estimate(difference, final[n], final[10]) for n in rate if n > 10})), runs,
+                {"rank correlation of N with early reward": estimate(rank_correlation, *early.values())},
+                shown={f"reward per second in the last of {round(each.steps / LENGTH)} blocks of 150,000 steps, N{n}":
+                       estimate(np.mean, each.rate(max(0, 1 - LENGTH / each.steps)))
+                       for n, each in (long or {}).items()},
                 testable=some_learned)
 
-    a11 = judged("A11", estimate(rank_correlation, *rate.values()), runs, testable=some_learned)
-    return [a1, a2, _judge_saturation(by_resolution, runs, some_learned), a4, a5, a11]
+    over = {n: estimate(difference, rate[50], rate[n]) for n in rate if n != 50}
+    a4 = judged("A4", (least, "over"), runs, {"over": _of_maps(over)}, shown={"reward per second": _of_maps(
+        {n: estimate(np.mean, values) for n, values in rate.items()})}, parts=(), testable=some_learned)
+
+    a11 = judged("A11", strength(correlation := estimate(rank_correlation, *rate.values())), runs,
+                 shown={"with its sign": correlation}, testable=some_learned)
+    return [a1, a2, a3, a4, _judge_evenness(by_resolution, brownian, lead, runs), a11]
 
 
-def _of_maps(found):
-    return {f"N{n}": each for n, each in found.items()}
+def _of_maps(estimates):
+    return {f"N{n}": each for n, each in estimates.items()}
 
 
-def _least_of_most(*times):
-    return quotient(np.min(times, axis=0), np.max(times, axis=0))
-
-
-def _judge_saturation(by_resolution, runs, some_learned):
-    """Claim A3, that coarse maps lead early, and that of the maps whose rate has levelled off the coarser earn less.
-
-    A map has levelled off if its reward per second rises from the middle of the run to the end by a tenth of its final
-    level at most. While that is open for some maps, the number covers both cases.
-    """
-    early, middle, final = ({n: by_resolution[n].rate(*share) for n in sorted(by_resolution)}
-                            for share in (EARLY, MIDDLE, FINAL))
-    rise = {n: estimate(ratio, final[n] - middle[n], final[n]) for n in final}
-    bounds = STATEMENTS["A3"].also["rise"]
-    levelled = {n: bounds.decide(each) for n, each in rise.items()}
-    sure, possible = ([n for n in final if levelled[n] in kept] for kept in ((True,), (True, None)))
-    found = [estimate(rank_correlation, *(final[n] for n in maps)) if len(maps) > 1 else Estimate(0.0, -1.0, 1.0)
-             for maps in (sure, possible)]
-    last = Estimate(found[1].value, least(found).low, most(found).high)
-    if len(possible) < 2:
-        last = exact(0.0)  # no two maps have levelled off
-    return judged("A3", last, runs, {"early": estimate(rank_correlation, *early.values())},
-                  {"rise from the middle fifth of the run to the last, of the final level": _of_maps(rise)},
-                  testable=some_learned)
+def _judge_evenness(by_resolution, brownian, lead, runs):
+    """Claim A5, from the learning times of the maps that finally lead Brownian motion: any two compare."""
+    final = {n: leads(lead_over_brownian(by_resolution[n], brownian)) for n in lead}
+    learning = [n for n in final if final[n]]
+    minutes = {n: learning_minutes(by_resolution[n], chance=brownian.rate()) for n in learning}
+    pairs = {f"N{fine} and N{coarse}": evenness(learning_minutes(by_resolution[fine], by_resolution[coarse],
+                                                                 chance=brownian.rate(), of=quotient))
+             for coarse, fine in combinations(learning, 2)}
+    nothing_learned = any_of(final.values()) is False
+    return judged("A5", (least, "of two maps") if pairs else exact(0.0), runs, {"of two maps": pairs},
+                  shown={"learning time in minutes": _of_maps(minutes)},
+                  parts=[("of two maps, N70 and N10",)] if "N70 and N10" in pairs else (),
+                  testable=True if pairs else False if nothing_learned else None)
 
 
 def judge_multiple_layers(by_resolution, together, brownian):
@@ -100,49 +93,50 @@ def judge_multiple_layers(by_resolution, together, brownian):
     best = max(final, key=lambda n: final[n].mean())
     some_learned = any_of([learned(result, brownian) for result in (*alone, together)])
 
-    surplus = estimate(lead_over_sum, all_final, *final.values())
-    sooner = minutes_sooner(together, alone, 0.5 * sum(values.mean() for values in final.values()))
-    a6 = judged("A6", surplus, runs, {"minutes sooner": sooner}, testable=some_learned)
+    sooner = estimate(lead_over_sum, together.rate(0, FINAL[0]), *(each.rate(0, FINAL[0]) for each in alone))
+    a6 = judged("A6", estimate(lead_over_sum, all_final, *final.values()), runs,
+                {"surplus before the last fifth": sooner},
+                shown={"surplus, as a share of what they earn together": estimate(share_over_sum, all_final,
+                                                                                  *final.values())},
+                testable=some_learned)
 
-    gain = estimate(ratio, all_final, final[7])
     sooner = minutes_sooner(together, by_resolution[7], 0.5 * final[7].mean())
     earned = {"3, 7 and 23 together": all_final, "N7": final[7], "Brownian motion": brownian.rate()}
-    a7 = judged("A7", gain, runs, {"share of a run sooner": share_of_run(sooner, together)},
-                {"final reward per second": {name: estimate(np.mean, rates) for name, rates in earned.items()},
-                 "minutes sooner": sooner},
+    a7 = judged("A7", estimate(ratio, all_final, final[7]), runs,
+                {"share of a run sooner": share_of_run(sooner, together)},
                 {"lead over N7": estimate(difference, all_final, final[7])},
-                testable=learned(by_resolution[7], brownian))
+                {"final reward per second": {name: estimate(np.mean, rates) for name, rates in earned.items()},
+                 "minutes sooner": sooner}, testable=learned(by_resolution[7], brownian))
 
     level = 0.5 * final[best].mean()
     sooner = {n: minutes_sooner(together, result, level) for n, result in by_resolution.items()}
-    lead = estimate(lead_over_best, all_final, *final.values())
+    lead = {n: estimate(difference, all_final, values) for n, values in final.items()}
     chance = probability_of_improvement(all_final, final[best])
-    a8 = judged("A8", least(sooner.values()), runs, {"final lead": lead},
-                {"minutes sooner": _of_maps(sooner), "probability of improvement": _of_maps({best: chance})},
-                testable=some_learned)
+    a8 = judged("A8", (least, "minutes sooner"), runs,
+                {"minutes sooner": _of_maps(sooner), "final lead": _of_maps(lead)},
+                shown={"probability of improvement": _of_maps({best: chance})},
+                parts=[("minutes sooner",), ("final lead",)], testable=some_learned)
     return [a6, a7, a8]
 
 
-def judge_margin(by_resolution, together, brownian):
-    """Claim A9, from agents with a single map and one with several, on the board of paper A.
+def judge_margin(by_resolution, brownian):
+    """Claim A9, from agents with a single map on the board of paper A.
 
-    by_resolution: {N: `Result`} of agents with one map. together: the `Result` of the agent with N3, N7 and N23.
-    brownian: that of Brownian motion on the same board.
+    by_resolution: {N: `Result`}. brownian: the `Result` of Brownian motion on the same board.
     Returns a `Claim`.
     """
     final = [result.rate(*FINAL) for result in by_resolution.values()]
-    gain = estimate(_mean_gain, brownian.rate(), *final)
-    share = estimate(_share_of_gain, together.rate(*FINAL), brownian.rate(), *final)
-    return judged("A9", share, fewest_runs(*by_resolution.values(), together), {"lead": gain}, part={"lead": gain},
-                  testable=learned(together, brownian))
+    lead = estimate(_mean_gain, brownian.rate(), *final)
+    return judged("A9", estimate(_gain_in_chances, brownian.rate(), *final), fewest_runs(*by_resolution.values()),
+                  {"lead": lead}, parts=[("lead",)])
 
 
 def _mean_gain(chance, *single, axis):
     return np.mean([each.mean(axis) for each in single], axis=0) - chance.mean(axis)
 
 
-def _share_of_gain(together, chance, *single, axis):
-    return quotient(_mean_gain(chance, *single, axis=axis), together.mean(axis) - chance.mean(axis))
+def _gain_in_chances(chance, *single, axis):
+    return quotient(_mean_gain(chance, *single, axis=axis), chance.mean(axis))
 
 
 def judge_exploration(together, alone, brownian):
@@ -155,7 +149,7 @@ def judge_exploration(together, alone, brownian):
     best = max(alone, key=np.mean)
     over_one, over_chance = (estimate(ratio, together, other) for other in (best, brownian))
     return judged("T9", over_one, min(map(len, (together, *alone, brownian))), {"over Brownian motion": over_chance},
-                  {"squares": estimate(np.mean, together)})
+                  shown={"squares": estimate(np.mean, together)})
 
 
 def judge_modalities(place, objects, both, brownian):
@@ -169,17 +163,15 @@ def judge_modalities(place, objects, both, brownian):
     pc, ovc, joint = (result.rate(*FINAL) for result in (place, objects, both))
     knows_place, knows_objects = (learned(result, brownian) for result in (place, objects))
 
-    as_quick = minutes_sooner(objects, place, 0.5 * pc.mean(), HALF_A_MINUTE)
-    b1 = judged("B1", estimate(ratio, ovc, pc), runs,
-                {"whole run": estimate(ratio, objects.rate(), place.rate()), "minutes sooner": as_quick},
-                testable=knows_place)
+    b1 = judged("B1", estimate(ratio, objects.rate(), place.rate()), runs,
+                shown={"finally": estimate(ratio, ovc, pc)}, testable=knows_place)
     b3 = judged("B3", estimate(np.mean, joint), runs, {"place cells": estimate(np.mean, pc)})
 
-    half = 0.5 * max(pc.mean(), ovc.mean())
-    sooner = {name: minutes_sooner(both, alone, half, HALF_A_MINUTE)
-              for name, alone in (("place cells", place), ("object-vector cells", objects))}
-    b6 = judged("B6", least(sooner.values()), runs, {"final lead": estimate(lead_over_best, joint, pc, ovc)},
-                {"minutes sooner": sooner}, testable=any_of([knows_place, knows_objects]))
+    level, alone = 0.9 * max(pc.mean(), ovc.mean()), {"place cells": place, "object-vector cells": objects}
+    sooner = {name: minutes_sooner(both, result, level) for name, result in alone.items()}
+    lead = {name: estimate(difference, joint, result.rate(*FINAL)) for name, result in alone.items()}
+    b6 = judged("B6", (least, "minutes sooner"), runs, {"minutes sooner": sooner, "final lead": lead},
+                parts=[("minutes sooner",), ("final lead",)], testable=any_of([knows_place, knows_objects]))
     return [b1, b3, b6]
 
 
@@ -191,11 +183,10 @@ def judge_resolutions(place, objects, brownian):
     Returns a `Claim`.
     """
     runs = fewest_runs(*place.values(), *objects.values())
-    lead = {}
-    for name, results in (("place cells", place), ("object-vector cells", objects)):
-        final = [result.rate(*FINAL) for n, result in results.items() if n != "all"]
-        lead[name] = estimate(lead_over_best, results["all"].rate(*FINAL), *final)
-    return judged("B2", least(lead.values()), runs, {"lead": lead},
+    lead = {f"lead, {name}": {f"N{n}": estimate(difference, results["all"].rate(*FINAL), result.rate(*FINAL))
+                              for n, result in results.items() if n != "all"}
+            for name, results in (("place cells", place), ("object-vector cells", objects))}
+    return judged("B2", (least, "lead"), runs, lead, parts=[(what,) for what in lead],
                   testable=any_of([learned(result, brownian) for result in (*place.values(), *objects.values())]))
 
 
@@ -208,7 +199,7 @@ def judge_pace(place, both, brownian):
     long_enough = both.seconds >= 60 * STATEMENTS["B4"].also["place cells"].number or None
     sooner = {"both, less place cells": minutes_to_own_level(both, place, of=np.subtract)}
     return judged("B4", minutes_to_own_level(both), fewest_runs(place, both),
-                  {"place cells": minutes_to_own_level(place), **sooner}, part=sooner,
+                  {"place cells": minutes_to_own_level(place), **sooner}, parts=[tuple(sooner)],
                   testable=all_of([learned(place, brownian), learned(both, brownian), long_enough]))
 
 
@@ -248,24 +239,23 @@ def judge_networks(a, b, c, d, brownian):
     final = {name: result.rate(*FINAL) for name, result in results.items()}
     lead_of_a, lead_of_d = (lead_over_brownian(results[name], brownian) for name in "AD")
 
-    rise = estimate(np.mean, final["A"] - a.rate(*EARLY))
-    short = estimate(difference, STATEMENTS["C1"].also["A / C"].high * final["C"], final["A"])
-    c1 = judged("C1", rise, runs, {"lead over Brownian motion": lead_of_a, "half of C, less A": short},
-                {name: estimate(np.mean, final[name]) for name in "AC"},
-                {"rise above Brownian motion": least([rise, lead_of_a]), "weak": short})
+    c1 = judged("C1", estimate(np.mean, final["A"] - a.rate(*EARLY)), runs,
+                {"half of C, less A": estimate(difference, 0.5 * final["C"], final["A"])},
+                shown={"lead over Brownian motion": lead_of_a,
+                       **{name: estimate(np.mean, final[name]) for name in "AC"}})
 
     c2 = judged("C2", estimate(difference, final["B"], final["A"]), runs, shown={
         "probability that a run beats one of A": probability_of_improvement(final["B"], final["A"])})
 
     over = {name: estimate(difference, final["C"], final[name]) for name in "AB"}
-    c3 = judged("C3", estimate(lead_over_best, final["C"], final["A"], final["B"]), runs, {"over": over},
-                {"probability that a run beats one of B": probability_of_improvement(final["C"], final["B"])})
+    c3 = judged("C3", (least, "over"), runs, {"over": over}, shown={
+        "probability that a run beats one of B": probability_of_improvement(final["C"], final["B"])})
 
-    lead = estimate(difference, final["D"], final["C"])
     c4 = judged("C4", estimate(_over_other_or_chance, final["D"], final["C"], brownian.rate()), runs,
                 {"lead over Brownian motion": lead_of_d},
+                {"lead over C": estimate(difference, final["D"], final["C"])},
                 {"probability that a run beats one of C": probability_of_improvement(final["D"], final["C"])},
-                {"lead over C and Brownian motion": least([lead, lead_of_d])})
+                [("lead over C", "lead over Brownian motion")])
     return [c1, c2, c3, c4]
 
 
@@ -281,10 +271,13 @@ def judge_untrained(learners, brownian):
     Returns a `Claim`.
     """
     over = {name: estimate(ratio, scores, brownian) for name, scores in learners.items()}
-    farthest = max(over.values(), key=lambda each: abs(np.log(max(each.value, 1e-9))))
     scores = {name: estimate(np.mean, each) for name, each in {**learners, "Brownian motion": brownian}.items()}
-    return judged("A10", farthest, min(map(len, (*learners.values(), brownian))), {"over Brownian motion": over},
-                  {"score": scores})
+    return judged("A10", (_farthest, "over Brownian motion"), min(map(len, (*learners.values(), brownian))),
+                  {"over Brownian motion": over}, shown={"score": scores})
+
+
+def _farthest(estimates):
+    return max(estimates, key=lambda each: abs(np.log(max(each.value, 1e-9))))
 
 
 def judge_alternatives(alternatives, thesis, brownian, real_time):

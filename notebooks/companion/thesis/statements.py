@@ -51,12 +51,13 @@ class Bounds:
 
 
 POSITIVE = Bounds(low=0.0, open=True)
+VISIBLE = Bounds(low=0.01, why="what a figure shows")  # of a lead in reward per second
 KINDS = ("agents", "proof", "counting", "code", "report", "demonstration")
 
 
 @dataclass(frozen=True)
 class Statement:
-    """One claim, as stated before any result; `statements.toml` says what its fields are."""
+    """One claim; `statements.toml` says what its fields are, and when they were stated."""
 
     place: str
     quotation: str
@@ -71,10 +72,14 @@ class Statement:
     finding: str = ""
 
 
+def _bounds(given):
+    return VISIBLE if given == "visible" else Bounds(**given)
+
+
 STATEMENTS = {
-    name: Statement(**given | {"bounds": Bounds(**given["bounds"]) if "bounds" in given else POSITIVE,
-                               "also": {what: Bounds(**each) for what, each in given.get("also", {}).items()}})
-    for name, given in tomllib.loads((resources.files(__package__) / "statements.toml").read_text("utf-8")).items()}
+    name: Statement(**fields | {"bounds": _bounds(fields["bounds"]) if "bounds" in fields else POSITIVE,
+                                "also": {what: _bounds(each) for what, each in fields.get("also", {}).items()}})
+    for name, fields in tomllib.loads((resources.files(__package__) / "statements.toml").read_text("utf-8")).items()}
 CLAIMS = tuple(name for name, statement in STATEMENTS.items() if statement.kind != "demonstration")
 AGENTS = tuple(name for name, statement in STATEMENTS.items() if statement.kind == "agents")
 APART = tuple(name for name in CLAIMS if name not in AGENTS)
