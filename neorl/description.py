@@ -15,7 +15,9 @@ import difflib
 import functools
 import importlib
 import json
-from collections.abc import Mapping
+import os
+import sys
+from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from os import PathLike
 from pathlib import Path
@@ -29,8 +31,10 @@ from neorl.core.identity import name_of
 from neorl.core.modality import MODALITIES
 from neorl.extras import require
 from neorl.files import write_whole
+from neorl.warn import warn
 
 SUFFIXES = (".toml", ".json")
+MAIN = "__main__:"  # before the names of what the running program defines
 PLAIN = {bool: "true or false", int: "an integer", float: "a number", str: "a text", type(None): "None"}
 
 
@@ -62,7 +66,8 @@ class Described:
         """Write the value to a file.
 
         path: a name that ends in .toml, which needs the package tomli-w, or .json.
-        Raises ValueError for any other name, and for values that `to_dict` refuses.
+        Raises ValueError for any other name, and for values that `to_dict` refuses. Warns of what stands in
+        ``__main__``, which other programs cannot read again.
         """
         suffix, data = _suffix(path), self.to_dict()
         if suffix == ".json":
@@ -73,6 +78,7 @@ class Described:
             except TypeError as error:  # None
                 raise ValueError(f"{path} cannot be written: {error}; choose a name that ends in .json") from error
         write_whole(path, text.encode())
+        warn_of_main(path, data)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
@@ -140,6 +146,36 @@ def restored(data, expected=object, path=""):
     if all(is_dataclass(each) or hasattr(each, "from_dict") for each in options):
         return checked(data, expected, path)
     return data
+
+
+def users_parts(data: object, path: str = "") -> Iterator[tuple[str, str, dict]]:
+    """The kernels and the objects of classes that are not neorl's in plain data: (path, name, table), outer ones first.
+
+    Their names are "module:name".
+    """
+    inner = []
+    if isinstance(data, dict):
+        name = str(data.get("kernel", data.get("is")))
+        if ":" in name and not name.startswith("neorl."):
+            yield path, name, data
+        inner = [(_at(path, key), each) for key, each in data.items()]
+    elif isinstance(data, list):
+        inner = [(f"{path}[{i}]", each) for i, each in enumerate(data)]
+    for where, each in inner:
+        yield from users_parts(each, where)
+
+
+def warn_of_main(path, data):
+    """Warn that what a file names of the running program's own can be read again by that program alone."""
+    if names := ", ".join({name: None for _, name, _ in users_parts(data) if name.startswith(MAIN)}):
+        warn(f"{path} can be read again by {main_program()} alone, where {names} stands: to read it elsewhere, move "
+             "that to a module, import it from there, and save again")
+
+
+def main_program():
+    """The running program in words: its file, its notebook, or that it has neither."""
+    return (getattr(sys.modules["__main__"], "__file__", None) or os.environ.get("JPY_SESSION_NAME")
+            or "the program that saved it")
 
 
 def _instance(data, expected, path):

@@ -20,6 +20,7 @@ from neorl.core.derived import most_passed
 from neorl.core.modality import as_turns, choices_of
 from neorl.core.record import ENTRIES
 from neorl.core.policy import greedy
+from neorl.worlds.former import check_present
 
 OF_SELF = displacement.begin_self, displacement.observe_self
 OF_CONTACTS = contacts.begin_contacts, contacts.observe_contacts, contacts.evaluate_contacts
@@ -37,6 +38,7 @@ def compiled(agent, world):
 def life_of(agent, whole=False):
     """The `Life` of an agent: the kernels that it calls, and None for others unless it is to be whole."""
     credit, axes = agent.learning.credit, own_axes(agent)
+    check_present(credit, agent.policy.choose, *axes)
     of_self = whole or any(node.state != "object" for node in agent.nodes)
     of_contacts = whole or any(node.goals == "contacts" for node in agent.nodes)
     own = Own(features(*axes) if whole or axes else None, credit if callable(credit) else no_credit if whole else None,

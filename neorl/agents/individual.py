@@ -1,7 +1,7 @@
 """An agent in a world, with everything it has learned: the base of `neorl.Learner` and `neorl.Run`.
 
 Parameters, state and values are read-only views. A saved file holds every array, the agent and its world as plain data
-(`neorl.description`), and a digest that reveals damage.
+(`neorl.description`), the digests of the user's code in them (`neorl.worlds.former`), and one that reveals damage.
 """
 
 from os import PathLike
@@ -22,8 +22,9 @@ from neorl.core.horde import as_vectors
 from neorl.core.kernel import arrays, mapped
 from neorl.core.modality import check_faults
 from neorl.core.record import ENTRIES, Memory
-from neorl.description import described, restored
+from neorl.description import described, restored, warn_of_main
 from neorl.files import read_arrays, write_arrays
+from neorl.worlds.former import changes, code_of
 
 # The arrays of `Memory` that have a part for each map, by what the part begins and ends with.
 OF_A_MAP = {"cell": ("goal_range",), "track": ("tracks", "events"), "passed": ("passed_at", "passed_rates"),
@@ -184,26 +185,35 @@ class Individual:
         """Save everything to a file, from which `load` continues bit for bit the same.
 
         An existing file is replaced. Raises OSError if it cannot be written, ValueError for anything but a path, and
-        for an agent with a kernel that is not defined in a module.
+        for an agent with a kernel that is not defined in a module. Warns of what stands in ``__main__``, which other
+        programs cannot load.
         """
-        about = {"agent": described(self.agent, Agent), "world": described(self.world), "progress": self._progress}
+        data = {"agent": described(self.agent, Agent), "world": described(self.world)}
+        about = data | {"code": code_of(data, self), "progress": self._progress}
         write_arrays(checks.path("path", path), type(self).__name__, about, {
             f"{name}.{each}": values for name in self._kept for each, values in arrays(getattr(self, name)).items()})
+        warn_of_main(path, data)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
         """Load a `Learner` or `Run` that `save` has written.
 
-        Raises OSError if there is no such file, ValueError if it is damaged, or of another kind or version.
+        Raises OSError if there is no such file, ValueError if it is damaged, of another kind or version, or if the
+        code of a kernel or a world of the user's has changed or cannot be found.
         """
         path = checks.path("path", path)
         about, kept = read_arrays(path, cls.__name__)
         try:
-            loaded = cls._of(restored(about["agent"], Agent), restored(about["world"]))
-            loaded._progress = about["progress"]
+            changed = changes({name: about[name] for name in ("agent", "world")}, about.get("code"))
+            if not changed:
+                loaded = cls._of(restored(about["agent"], Agent), restored(about["world"]))
+                loaded._progress = about["progress"]
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise ValueError(f"{path} must describe an agent in a world of this version of neorl, but "
                              f"{error!r}") from error
+        if changed:
+            raise ValueError(f"{path}: a {cls.__name__} must go on with the code that it was saved with, but "
+                             f"{'; '.join(changed.values())}: restore that code, or begin another")
         for name in cls._kept:
             for each, mine in arrays(getattr(loaded, name)).items():
                 saved = kept.get(f"{name}.{each}", np.empty(0, object))

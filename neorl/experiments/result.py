@@ -1,7 +1,8 @@
 """The result of a condition: rewards and hits of its runs, as arrays, tables of pandas, and files.
 
 A saved result is an npz file of its arrays, rewards and hits, and a text, about: a table in JSON with the agent, the
-world and everything else that determined it, as plain data (`neorl.description`), and the version of neorl.
+world and everything else that determined it, as plain data (`neorl.description`), digests of the user's code among it
+(`neorl.worlds.former`), and the version of neorl.
 """
 
 import sys
@@ -14,11 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl import checks
-from neorl.description import described, restored
+from neorl.description import described, restored, warn_of_main
 from neorl.experiments.bins import bin_steps, n_bins
 from neorl.experiments.condition import Condition
 from neorl.extras import require
 from neorl.files import read_arrays, write_arrays
+from neorl.warn import warn
+from neorl.worlds.former import changes, code_of, stand_in
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,25 +104,33 @@ class Result:
         """Save to a NumPy npz file: the arrays rewards and hits, and the text about, a table in JSON.
 
         An existing file is replaced. Raises OSError if it cannot be written, ValueError for an agent or a world that
-        cannot be imported by name (`neorl.description`).
+        cannot be imported by name (`neorl.description`). Warns of what stands in ``__main__``, which other programs
+        cannot load.
         """
-        arrays = {"rewards": self.rewards, "hits": self.hits}
-        write_arrays(checks.path("path", path), "Result", about(self.condition), arrays, np.savez_compressed)
+        known, arrays = about(self.condition), {"rewards": self.rewards, "hits": self.hits}
+        write_arrays(checks.path("path", path), "Result", known, arrays, np.savez_compressed)
+        warn_of_main(path, known)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
         """Load a result that `save` has written.
 
-        Raises OSError if there is no such file, ValueError if it is damaged, of another kind or from a newer neorl, or
-        if its agent or world cannot be imported.
+        A kernel or a world of the user's whose code has changed or cannot be found is replaced by what the file knows
+        of it (`neorl.worlds.former`), with a warning: the condition then equals none of the present code.
+        Raises OSError if there is no such file, ValueError if it is damaged, of another kind or from a newer neorl.
         """
         path = checks.path("path", path)
         known, arrays = read_arrays(path, "Result")
         try:
+            changed = changes(known, known.get("code"))
+            stand_in(known, known.get("code"), changed)
             condition = condition_of(known)
-            return cls(condition, *fitting(arrays, condition, condition.runs))
+            result = cls(condition, *fitting(arrays, condition, condition.runs))
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from error
+        if changed:
+            warn(f"{path} has a result of other code than the present: {'; '.join(changed.values())}")
+        return result
 
 
 def about(condition):
@@ -127,7 +138,8 @@ def about(condition):
 
     Raises ValueError for an agent or a world that cannot be imported by name.
     """
-    return {"neorl": sys.modules["neorl"].__version__, **described(condition, Condition)}  # above this room
+    data = described(condition, Condition)
+    return {"neorl": sys.modules["neorl"].__version__, **data, "code": code_of(data, condition)}  # above this room
 
 
 def condition_of(known):
