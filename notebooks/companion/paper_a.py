@@ -83,19 +83,30 @@ def _as_in(figure, result, of_paper=True):
     return f"{paper}, figure {figure}"
 
 
-def draw_together(several):
-    """Draw reward per second of each layer alone, of all together, and summed.
+def levels(several):
+    """The thesis's level for the paper's layers and creeps, a multiple of what N7 finally earns: {name: level}, or {}."""
+    if _layers(several) != LAYERS or several["N7"].world.n_creeps != N_CREEPS:
+        return {}
+    factor = STATEMENTS["A7"].bounds.number
+    return {f"thesis: {factor} × N7": factor * several["N7"].rate(*FINAL).mean()}
 
-    With the paper's layers and creeps, a dashed line marks the thesis's level, a multiple of what N7 finally earns.
-    """
+
+def about_levels(several):
+    """What a page says of the level that `draw_together` marks, if it does, in Markdown."""
+    return ("\n\nThe thesis reports a ratio to N7 and no level: the dashed line of the figure at the top is where all maps "
+            "together would end at that multiple of what N7 finally earns here, and is low where N7 earns little."
+            ) * bool(levels(several))
+
+
+def draw_together(several):
+    """Draw reward per second of each layer alone, of all together, and summed, with dashed lines at the `levels`."""
     *alone, (_, together) = several.items()
     total = {2: "sum of both", 3: "sum of the three"}.get(len(alone), "sum of all")
     sums = [*((name, [result]) for name, result in alone), (all_of(alone), [together]),
             (total, [result for _, result in alone])]
     axes = draw_sums(sums, [*looks(len(alone) + 1), (INK, "-")])
-    if _layers(several) == LAYERS and together.world.n_creeps == N_CREEPS:
-        factor = STATEMENTS["A7"].bounds.number
-        mark_levels(axes, {f"thesis: {factor} × N7": factor * several["N7"].rate(*FINAL).mean()})
+    if levels(several):
+        mark_levels(axes, levels(several))
 
 
 def draw_elements(axes, nres_map, places, valences, values):

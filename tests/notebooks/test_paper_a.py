@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib import pyplot as plt
 from page_cells import executed
 
 from companion import paper_a
@@ -49,6 +50,17 @@ def test_other_maps_are_run_and_only_claims_about_the_paper_s_own_are_judged():
     assert [*page.several] == ["N5", "N11", "all maps"] and [*page.single][:2] == ["N10", "N20"]
     assert page.several["all maps"].agent == place_cells([5, 11], **TO_THE_LETTER.agents)
     assert [claim.name for claim in page.judged] == ["A1", "A2", "A3", "A4", "A5", "A11"]
+
+
+def test_the_page_speaks_of_the_thesis_s_level_where_it_is_drawn():
+    _, papers, _ = results_of()
+    _, others, _ = results_of(layers=(5, 11))
+    _, among_three, _ = results_of(world=replace(WORLD, n_creeps=3))
+    for several, of_paper in ((papers, True), (others, False), (among_three, False)):
+        paper_a.draw_together(several)
+        dashed = [line for line in plt.gca().lines if line.get_linestyle() == "--"]
+        assert bool(dashed) == ("dashed" in paper_a.about_levels(several)) == of_paper
+        plt.close()
 
 
 def test_nothing_is_judged_on_another_board_and_variations_are_of_what_was_run():
