@@ -18,7 +18,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # has w
 # ruff: noqa: E402
 import nbformat
 import papermill
-from excerpts import save_figures, save_widgets
+from excerpts import save_figures, save_widgets, without_ground
 from companion.page.opening import CLAIMS_PAGE
 from nbclient.exceptions import DeadKernelError
 from cells import of_page
@@ -77,6 +77,8 @@ def compute(notebook, parameters):
             shown = output.get("data", {})
             if "text/markdown" in shown:
                 shown["text/markdown"] = shown["text/markdown"].replace(f'"{CLAIMS_PAGE}', '"../claims.html')
+            if "image/svg+xml" in shown:
+                shown["image/svg+xml"] = without_ground(shown["image/svg+xml"])
     executed.cells = with_programs(of_page(executed.cells, parameters))
     save_figures(executed, work)
     save_widgets(executed, work)

@@ -24,6 +24,11 @@ def save_figures(notebook, folder):
                 first = False
 
 
+def without_ground(figure):
+    """A figure of matplotlib's, SVG, without its ground, the first patch: the book's style sheet knows the page."""
+    return re.sub(r'<g id="patch_1">.*?</g>\s*', "", figure, count=1, flags=re.DOTALL)
+
+
 def small(figure):
     """A figure of matplotlib's for a small picture: its first panel, cut at the axes, without letters.
 

@@ -1,7 +1,7 @@
-"""The style of all figures: colours for light and dark pages, on a transparent background.
+"""The style of all figures: colours on a white ground, so that they are legible on a page of any colour.
 
-1. Lines and discs have a contrast of at least 3 : 1 with either page, letters of 4.5 : 1: as drawn on a light page, and
-   as brightened by the book's style sheet on a dark one.
+1. Lines and discs have a contrast of at least 3 : 1, letters of 4.5 : 1: as drawn on white, and as brightened by the
+   book's style sheet on its dark page, for which the build takes the ground away. No colour has 4.5 : 1 with both.
 2. Colours are distinct for colour-blind readers, and never alone: a curve carries its name, a creep its sign.
 3. Letters have at least 9 points in a figure of the usual width, which is 9 pixels on a phone.
 """
@@ -23,7 +23,7 @@ LIGHT_OF_LETTERS = 0.165  # relative luminance
 DASHES = ("-", "--", ":", "-.")  # of curves: one for each cycle through the colours
 SMALL, CROWDED = 9, 6  # points: the least size of letters, and the size of the names of more than a dozen curves
 STYLE: dict[Any, Any] = {
-    "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none", "figure.figsize": (4.9, 3.5),
+    "figure.facecolor": "white", "axes.facecolor": "none", "savefig.facecolor": "auto", "figure.figsize": (4.9, 3.5),
     "font.size": 11, "text.color": TEXT, "axes.labelcolor": TEXT, "axes.edgecolor": INK, "xtick.color": INK,
     "ytick.color": INK, "xtick.labelcolor": TEXT, "ytick.labelcolor": TEXT, "axes.spines.top": False,
     "axes.spines.right": False, "lines.linewidth": 1.8,

@@ -84,7 +84,7 @@ def _as_in(figure, result, of_paper=True):
 
 
 def levels(several):
-    """The thesis's level for the paper's layers and creeps, a multiple of what N7 finally earns: {name: level}, or {}."""
+    """The thesis's level by what N7 finally earns: {name: level}, empty but for the paper's maps and creeps."""
     if _layers(several) != LAYERS or several["N7"].world.n_creeps != N_CREEPS:
         return {}
     factor = STATEMENTS["A7"].bounds.number
@@ -93,8 +93,8 @@ def levels(several):
 
 def about_levels(several):
     """What a page says of the level that `draw_together` marks, if it does, in Markdown."""
-    return ("\n\nThe thesis reports a ratio to N7 and no level: the dashed line of the figure at the top is where all maps "
-            "together would end at that multiple of what N7 finally earns here, and is low where N7 earns little."
+    return ("\n\nThe thesis reports a ratio to N7 and no level: the dashed line of the figure at the top is where all "
+            "maps would end at that multiple of what N7 finally earns here, and is low where N7 earns little."
             ) * bool(levels(several))
 
 

@@ -9,7 +9,10 @@ import excerpts
 import nbformat
 import pytest
 from cells import LABEL, of_page
+from excerpts import without_ground
 from matplotlib import pyplot as plt
+
+from neorl.drawing import STYLE
 
 TEXT = "</script><!-- <script> </SCRIPT >"  # must not end the tag that contains it
 
@@ -89,6 +92,14 @@ def test_figures_are_saved_by_name_and_the_first_small_without_letters_too(tmp_p
     excerpts.save_figures(nbformat.v4.new_notebook(cells=cells), tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["fig-one-small.svg", "fig-one.svg", "fig-two.svg"]
     assert ['id="text_' in (tmp_path / f"fig-one{which}.svg").read_text() for which in ("", "-small")] == [True, False]
+
+
+def test_the_book_s_figures_have_no_ground_since_its_style_sheet_knows_the_page():
+    with plt.rc_context(STYLE):
+        plt.figure().add_subplot().add_patch(plt.Circle((0, 0), 1, facecolor="#ffffff"))
+        plt.savefig(drawn := io.StringIO(), format="svg")
+    before, after = (each.count("fill: #ffffff") for each in (drawn.getvalue(), without_ground(drawn.getvalue())))
+    assert (before, after) == (2, 1) and without_ground("<svg></svg>") == "<svg></svg>"
 
 
 def test_captions_and_titles_of_folds_are_the_book_s_and_cells_of_papermill_are_left_out():

@@ -11,7 +11,7 @@ from neorl import (Condition, NresMap, Result, Run, WaterWorld, brownian, networ
 from neorl.core.direction import TAU
 from neorl import drawing
 from neorl.drawing.curves import draw_sums
-from neorl.drawing.style import looks
+from neorl.drawing.style import letters, linear_light, looks
 from neorl.statistics import binned_rate
 
 
@@ -42,6 +42,19 @@ def test_proficiency_draws_the_sum_of_the_parts(results):
     draw_sums(sums, looks(3), points=10)
     n3, n7, total, _ = (line.get_ydata() for line in plt.gca().lines)
     np.testing.assert_allclose(total, n3 + n7, rtol=1e-5, atol=1e-12)
+
+
+def test_letters_are_legible_on_a_page_of_any_colour(results):
+    """Figures bring their own ground, since no colour of letters has 4.5 : 1 with both white and black."""
+    with plt.rc_context(drawing.STYLE):
+        drawing.draw_proficiency(results)
+        figure = plt.gcf()
+        figure.draw_without_rendering()
+        assert figure.get_facecolor()[3] == 1 and plt.rcParams["savefig.facecolor"] in ("auto", "white")
+        _, ground = linear_light(figure.get_facecolor())
+        written = {each.get_color() for each in figure.findobj(plt.Text) if each.get_text()}
+        for colour in written | {letters(colour) for colour, _ in looks(7)}:
+            assert (ground + 0.05) / (linear_light(colour)[1] + 0.05) >= 4.5
 
 
 def test_the_filter_keeps_what_is_slow_and_takes_out_what_is_fast():
