@@ -1,4 +1,4 @@
-"""The free memory and the cores of this process: those of its container, where the machine has more.
+"""The free memory and the cores of this process: those of its container or its pool, where the machine has more.
 
 A container limits its processes by Linux's control groups, of version 1 or 2; groups are nested, and the tightest limit
 counts. `psutil`, the affinity and Python's own counts are those of the machine. Memory in use does not count while it
@@ -29,14 +29,17 @@ def free_memory(groups: str | Path = GROUPS, own: str | Path = OWN) -> int:
 
 
 def cores(groups: str | Path = GROUPS, own: str | Path = OWN) -> int:
-    """The number of cores on which this process may run, ≥ 1; a part of a core counts as one. groups, own: as above."""
+    """The number of cores on which this process may run, ≥ 1; a part of a core counts as one. groups, own: as above.
+
+    ``NUMBA_NUM_THREADS`` in the environment limits them, too: so joblib and Dask share a machine among their workers.
+    """
     usable = [len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1]
     for group in _groups("cpu", Path(groups), Path(own)):
         limit = _read(group / "cpu.max") or f"{_read(group / 'cpu.cfs_quota_us')} {_read(group / 'cpu.cfs_period_us')}"
         quota, period = map(_number, limit.partition(" ")[::2])
         if quota and period:
             usable.append(math.ceil(quota / period))
-    return min(usable)
+    return min(usable + [threads for threads in [_number(os.environ.get("NUMBA_NUM_THREADS", ""))] if threads])
 
 
 def _groups(controller: str, groups: Path, own: Path) -> Iterator[Path]:

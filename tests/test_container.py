@@ -36,6 +36,7 @@ CASES = {  # the files of control groups, those of this process, free bytes, cor
 
 @pytest.mark.parametrize("contents, own, free, usable", CASES.values(), ids=CASES)
 def test_limits_of_control_groups_are_limits(tmp_path, monkeypatch, contents, own, free, usable):
+    monkeypatch.delenv("NUMBA_NUM_THREADS", raising=False)
     monkeypatch.setattr("psutil.virtual_memory", lambda: type("Memory", (), {"available": 10**8}))
     monkeypatch.setattr("os.sched_getaffinity", lambda _: {0, 1, 2}, raising=False)
     for name, content in contents.items():
@@ -45,6 +46,13 @@ def test_limits_of_control_groups_are_limits(tmp_path, monkeypatch, contents, ow
     (tmp_path / "own").write_text(own)
     where = tmp_path / "groups", tmp_path / "own"
     assert (free_memory(*where), cores(*where)) == (10**8 if free is None else free, usable or 3)
+
+
+@pytest.mark.parametrize("threads, usable", [("1", 1), ("2", 2), ("64", 3), ("0", 3), ("many", 3)])
+def test_the_threads_that_a_pool_leaves_to_its_worker_are_a_limit(tmp_path, monkeypatch, threads, usable):
+    monkeypatch.setattr("os.sched_getaffinity", lambda _: {0, 1, 2}, raising=False)
+    monkeypatch.setenv("NUMBA_NUM_THREADS", threads)
+    assert cores(tmp_path, tmp_path / "own") == usable
 
 
 @pytest.fixture
