@@ -116,6 +116,21 @@ def save(lab, path, notebook):
     return Path(lab.root_dir, path.strip("/")).read_bytes()
 
 
+def test_outputs_of_a_page_are_kept_under_a_name_of_ones_own(lab):
+    notebook = executed(nbformat.read(saving.PAGES / "paper_a.ipynb", 4))
+    mine = saving.PAGES / "mine.ipynb"
+    save(lab, f"notebooks/{mine.name}", notebook)
+    kept = nbformat.read(mine, 4)
+    assert [cell.get("outputs") for cell in kept.cells] == [cell.get("outputs") for cell in notebook.cells]
+
+
+@pytest.mark.parametrize("said", ["Pyodide and JupyterLite have no numba", "by nbconvert needs Inkscape",
+                                  "To keep the outputs of a long page, save it under a name of your own"])
+def test_the_page_running_it_says_once_what_does_not_work_and_how_to_keep_outputs(said):
+    text = " ".join((ROOT / "book" / "running.md").read_text(encoding="utf-8").split())
+    assert text.count(said) == 1
+
+
 def test_a_page_that_was_run_in_lab_is_saved_as_it_was(lab):
     for path in saving.PAGES.glob("*.ipynb"):
         committed = path.read_bytes()
