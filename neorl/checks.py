@@ -140,7 +140,7 @@ def instance(name: str, value: Any, kind: type[Kind]) -> Kind:
     """`value`, if it is an instance of `kind`."""
     if isinstance(value, kind):
         return value
-    raise error(name, with_article(kind.__name__), value)
+    raise error(name, vars(kind).get("in_words") or with_article(kind.__name__), value)
 
 
 def with_article(noun: str) -> str:

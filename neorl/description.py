@@ -92,7 +92,11 @@ class Described:
         suffix = _suffix(path)
         try:
             text = Path(path).read_text(encoding="utf-8-sig")  # some editors begin with a mark
+            if "\0" in text:  # of UTF-16 without a mark
+                raise UnicodeError("it contains null characters")
             data = tomllib.loads(text) if suffix == ".toml" else json.loads(text)
+        except UnicodeError as error:
+            raise ValueError(f"{path} must be a text in UTF-8, but is not: {error}; save it as UTF-8") from error
         except (ValueError, RecursionError) as error:
             raise ValueError(f"{path} must be written in {suffix[1:].upper()}, but is not: {error}") from error
         if not isinstance(data, dict):

@@ -46,9 +46,11 @@ def cache_folder():
 def write_whole(path, content):
     """Write bytes to a file that is complete or absent at any time, or to the one that a link stands for.
 
-    Raises OSError, and then leaves nothing behind.
+    Raises OSError, which names the file, and then leaves nothing behind.
     """
     path = Path(os.path.realpath(path))
+    if path.is_dir():
+        raise IsADirectoryError(f"{path} must be a file, but is a folder: add a name for a file in it")
     path.parent.mkdir(parents=True, exist_ok=True)
     _remove_stale(path.parent)
     prefix, suffix = UNFINISHED
@@ -59,9 +61,11 @@ def write_whole(path, content):
             file.flush()
             os.fsync(file.fileno())
         os.replace(unfinished, path)
-    except BaseException:
+    except BaseException as error:
         with contextlib.suppress(OSError):
             os.unlink(unfinished)
+        if isinstance(error, OSError) and error.errno:
+            raise OSError(error.errno, error.strerror, str(path)) from error  # which names no temporary file
         raise
 
 

@@ -174,7 +174,10 @@ def test_data_that_contain_themselves_are_refused():
 
 @pytest.mark.parametrize("name, content, message", [
     ("a.toml", b"steps = ", "must be written in TOML, but is not: Invali"), ("a.json", b"{", "must be written in JSO"),
-    ("a.json", b"\xff\xfe", "must be written in JSO"), ("a.json", b"[1]", r"must be a table of fields, but is \[1\]"),
+    ("a.json", "{}".encode("utf-16"), "must be a text in UTF-8, but is not: .*; save it as UTF-8"),
+    ("a.toml", "steps = 3".encode("utf-16"), "must be a text in UTF-8, but is not: .*; save it as UTF-8"),
+    ("a.toml", "steps = 3".encode("utf-16-le"), "must be a text in UTF-8, but is not: .*; save it as UTF-8"),
+    ("a.json", b"[1]", r"must be a table of fields, but is \[1\]"),
     ("a.json", b"[" * 100_000, "must be written in JSO"), ("a.yaml", b"", "must be a name that ends in .toml or"),
 ])
 def test_other_files_are_refused_by_name(tmp_path, name, content, message):

@@ -46,6 +46,8 @@ class Individual:
     memory.
     """
 
+    in_words = "a Run or a Learner"  # in messages
+
     def _live(self, agent, world, stream, after=None):
         """Begin as an untrained agent. after: a finished one, whose memory is reused if it is large enough."""
         q = None

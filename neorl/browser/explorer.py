@@ -230,7 +230,8 @@ def _by_name(conditions):
         conditions = {label(getattr(conditions, "agent", conditions)): conditions}
     kinds = "a Result, a Condition or an Agent"
     if not isinstance(conditions, Mapping | None):
-        raise checks.error("conditions", f"{kinds}, several by name, {{name: …}}, or the name of a preset", conditions)
+        raise ValueError(f"conditions must be {kinds}, several by name, {{name: …}}, or the name of a preset, but is "
+                         f"{checks.with_article(type(conditions).__name__)}")
     for name, condition in (conditions or {}).items():
         checks.instance("name of a condition", name, str)
         if not isinstance(condition, Result | Condition | Agent):

@@ -14,10 +14,12 @@ from matplotlib.patches import Patch, Rectangle, Wedge
 from numpy.typing import ArrayLike
 
 from neorl import checks
+from neorl.agents.agent import Place
 from neorl.agents.individual import Individual
 from neorl.core.direction import TAU
 from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
+from neorl.core.modality import SEVERAL
 from neorl.core.scene import CARDINAL, Actions
 from neorl.drawing.boards import board_or_new
 from neorl.drawing.style import AGENT, GREEN, INK, RED, colour_like
@@ -92,14 +94,14 @@ def draw_values(nres_map: NresMap, values: ArrayLike, actions: Actions = CARDINA
     return axes
 
 
-def draw_value_map(run: Individual, goals: ArrayLike, valences: Sequence[float] | None = None, index: int = 0,
-                   ax: Axes | None = None) -> Axes:
+def draw_value_map(run: Individual, goals: ArrayLike | None = None, valences: Sequence[float] | None = None,
+                   index: int = 0, ax: Axes | None = None) -> Axes:
     """Draw the learned values of goals: each cell the more opaque the greater the value of its best action, red where
     it is negative, with an arrow for the values of all actions. The cells of the goals have a bold edge.
 
     run: a `neorl.Run` or a `neorl.Learner` in a world of two axes. goals: (goals, coordinates), points of the map's
-    modality, such as places in board widths, or distances and directions in radians. valences: their weights, by
-    default 1.
+    modality, such as places in board widths, or distances and directions in radians; by default what the agent desires
+    now, with its valences, or in a map of things their contact. valences: of goals, by default 1.
     index: of the map in `Agent.maps`, one that `draw_cells` can draw.
     Raises ValueError for anything else.
 
@@ -111,6 +113,10 @@ def draw_value_map(run: Individual, goals: ArrayLike, valences: Sequence[float] 
         raise ValueError(f"world of run must have two axes to be drawn, but has {run.world.actions.axes}")
     q = run.q(index)
     nres_map = run.agent.maps[index]
+    if goals is None:
+        if valences is not None:
+            raise checks.error("valences", "None without goals", valences)
+        goals, valences = _desired(run, index)
     cells = np.atleast_1d(nres_map.encode(goals))
     valences = [1.0] * len(cells) if valences is None else [
         checks.real("valences", each) for each in checks.several("valences", valences)]
@@ -127,6 +133,30 @@ def draw_value_map(run: Individual, goals: ArrayLike, valences: Sequence[float] 
         patches[cell].set(facecolor="none", edgecolor=GREEN if valence > 0 else RED, linewidth=2.5, zorder=3)
         axes.add_patch(patches[cell])
     return draw_values(nres_map, values, run.world.actions, axes)
+
+
+def _desired(run, index):
+    """What the agent desires in a map, with its valences: two lists, of the map's coordinates and of numbers."""
+    agent, scene = run.agent, run._scene
+    node = [node for node in agent.nodes for _ in node.resolutions][index]
+    if node.modality.follows in SEVERAL:
+        return [node.modality.tune((0.0, 0.0))], [1.0]
+    here, found = scene.position / run.world.size, []
+    start = 0.0 if node.modality.follows == "position" else here
+    for desire, state in zip(agent.desires, run.state.desires):
+        if desire.target != node.name:
+            continue
+        if isinstance(desire.source, tuple):
+            found.append((desire.source, state.worth))
+        elif agent.comes_from_node(desire):
+            found.append((node.modality.tune(here + state.target_at - start), state.target_valence))
+        else:
+            places = [desire.source.coordinates] if isinstance(desire.source, Place) else (
+                scene.things[scene.kinds == run.world.kinds.index(desire.source)] / run.world.size)
+            found += [(node.modality.tune(place - start), state.worth) for place in np.asarray(places)]
+    if not found:
+        raise ValueError(f"goals must be given, since the node {node.name!r} of this map desires nothing now")
+    return map(list, zip(*found))
 
 
 def _fields(nres_map):

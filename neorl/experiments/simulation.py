@@ -18,8 +18,9 @@ import os
 import pickle
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, ThreadPoolExecutor, as_completed
+from itertools import islice
 from typing import NamedTuple
 
 from neorl import checks
@@ -52,8 +53,8 @@ def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0
         `neorl.Run.change`.
     cache: read what is on disk already instead of computing it, and keep finished runs there, so that after an
         interruption the next call does the rest.
-    threads: the greatest number of runs in parallel, an integer ≥ 1; by default one per core, as far as they fit into
-        the free memory.
+    threads: the greatest number of runs in parallel, an integer ≥ 1; by default one per core that this process may
+        use (its affinity, container and ``NUMBA_NUM_THREADS``), as far as they fit into the free memory.
     progress: show a progress bar in a terminal or a notebook, but not where the output is recorded; or a function
         (done, total), which is called now and then with the number of steps that all runs together have taken, and
         will take. It is called from threads, but never twice at once.
@@ -68,12 +69,13 @@ def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0
         raise failure.__cause__ or failure
 
 
-def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
+def sweep(conditions: Iterable[Condition], executor: Executor | None = None,
           progress: bool | Callable[[int, int], object] = True, *, cache: bool = True,
           threads: int | None = None) -> Iterator[Result]:
     """Compute independent conditions, and return an iterator of their `Result`s, in order.
 
-    conditions: `Condition`s. All are computed before this returns; each result is read from disk when its turn comes.
+    conditions: an iterable of `Condition`s. All are computed before this returns; each result is read from disk when
+        its turn comes.
     executor: any `concurrent.futures.Executor` whose workers can import this version of neorl, such as a process
         pool, `dask.distributed.Client.get_executor()`, or an executor over MPI; by default this machine's cores. It is
         not shut down.
@@ -86,7 +88,11 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
     into the free memory of this machine, RuntimeError for conditions that have failed, once all others are kept; the
     next call resumes there. Warns if results cannot be written to disk.
     """
-    conditions = checks.several("conditions", conditions)
+    try:
+        each = iter(conditions)
+    except TypeError:
+        raise checks.error("conditions", "an iterable of Conditions, such as a list", conditions) from None
+    conditions = checks.several("conditions", list(islice(each, checks.MOST + 1)))
     for condition in conditions:
         _check_room(checks.instance("condition", condition, Condition))
     if not hasattr(executor, "submit") and executor is not None:

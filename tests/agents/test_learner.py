@@ -1,6 +1,7 @@
 """A learner in a user's own loop: bit-identical to a run, also when saved or copied; bad arguments are refused."""
 
 import copy
+import errno
 import pickle
 from dataclasses import replace
 
@@ -11,7 +12,7 @@ from same import assert_equal, assert_same, newborn
 from saved_files import rewrite
 
 from neorl import (CARDINAL, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld,
-                   multimodal, network_d, object_vector_cells, place_cells, softmax)
+                   brownian, drawing, multimodal, network_d, object_vector_cells, place_cells, softmax)
 from neorl.core.calls import execute
 from neorl.core.kernel import arrays, jit_is_off, mapped
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
@@ -272,6 +273,27 @@ def test_a_file_of_another_version_or_making_is_refused(saved, forge):
     rewrite(saved, forge)
     with pytest.raises(ValueError, match=str(saved)):
         Learner.load(saved)
+
+
+def test_a_folder_is_refused_by_its_own_name_and_other_errors_name_the_file(tmp_path, monkeypatch):
+    run = Run(place_cells([2]), WaterWorld())
+    for each in (run, Learner(brownian()), WaterWorld()):
+        (tmp_path / "folder.json").mkdir(exist_ok=True)
+        with pytest.raises(OSError, match=f"^{tmp_path}/folder.json must be a file, but is a folder: add a name for a"):
+            each.save(tmp_path / "folder.json")
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device", ".neorl-1.tmp")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(OSError, match=f"No space left on device: '{tmp_path}/run.npz'$"):
+        run.save(tmp_path / "run.npz")
+
+
+def test_another_learner_is_called_by_the_names_that_users_know():
+    for refused in (lambda: Learner(brownian()).transfer(5), lambda: drawing.draw_value_map(5, [(0.5, 0.5)])):
+        with pytest.raises(ValueError, match="(other|run) must be a Run or a Learner, but is 5"):
+            refused()
 
 
 def test_what_is_no_learner_or_not_there_is_refused(saved, tmp_path):

@@ -163,7 +163,8 @@ def test_a_result_needs_no_name(conditions):
     ({"X": TANK}, r"condition X must be a Result, a Condition or an Agent, but is WaterWorld\(width"),
     ({3: PAIR}, "name of a condition must be a str, but is 3"),
     ("Network E", "preset must be 'Foveated cells, contacts alone'"), ("", "preset must be 'Foveated cells"),
-    ([PAIR], r"conditions must be a Result, a Condition or an Agent, several by name, {name: …}, or the name of a pre"),
+    ([PAIR], r"conditions must be a Result, a Condition or an Agent, several by name, {name: …}, or the name of a pr"
+     "eset, but is a list$"),
     (TANK, "conditions must be a Result, a Condition or an Agent, several by name")])
 def test_what_cannot_be_shown_is_refused(what, allowed):
     with pytest.raises(ValueError, match=allowed):

@@ -6,7 +6,7 @@ from matplotlib.patches import Wedge
 from matplotlib.transforms import Affine2D
 
 from companion.paper_b.receptive_fields import draw_receptive_fields
-from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Run, WaterWorld, drawing
+from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Place, Run, WaterWorld, drawing
 from neorl.core.direction import TAU
 from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, polar
 
@@ -87,3 +87,29 @@ def test_the_active_receptive_fields_are_filled(modality, resolution):
     filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
     expected = np.isin(nres_map.encode(modality.tune(seen)), list(active))
     assert np.mean(filled == expected) > 0.98  # all but where corners are rounded
+
+
+def same_map(one, other):
+    return [(each.get_alpha(), each.get_facecolor(), each.get_linewidth()) for each in one.patches] == [
+        (each.get_alpha(), each.get_facecolor(), each.get_linewidth()) for each in other.patches]
+
+
+def test_without_goals_a_value_map_is_of_what_the_agent_desires_now():
+    agent = Agent([Node("PC", PLACE_CELL, [5]), Node("HD", HEAD_DIRECTION_CELL, [6]),
+                   Node("OVC", OBJECT_VECTOR_CELL, [3]), Node("idle", PLACE_CELL, [2])],
+                  [Desire("green", "PC", 1.0), Desire("red", "PC", -0.5), Desire(Place(0.1, 0.2), "PC", 2.0),
+                   Desire((0.9, 0.9), "PC", 0.25), Desire("PC", "HD", 0.5), Desire("green", "OVC", 1.0)])
+    run = Run(agent, WaterWorld(n_creeps=4), seed=2)
+    run.advance(20_000)
+    scene = run.world_state.scene
+    creeps = scene.things / run.world.size
+    goals = [*creeps[scene.kinds == 0], *creeps[scene.kinds == 1], (0.1, 0.2), (0.9, 0.9)]
+    valences = [1.0] * sum(scene.kinds == 0) + [-0.5] * sum(scene.kinds == 1) + [2.0, 0.25]
+    assert same_map(drawing.draw_value_map(run), drawing.draw_value_map(run, goals, valences))
+    landing = HEAD_DIRECTION_CELL.tune(run.state.desires[4].target_at)
+    assert same_map(drawing.draw_value_map(run, index=1), drawing.draw_value_map(run, [landing], [0.5], index=1))
+    assert same_map(drawing.draw_value_map(run, index=2), drawing.draw_value_map(run, [(0.0, 0.0)], index=2))
+    with pytest.raises(ValueError, match="goals must be given, since the node 'idle' of this map desires nothing now"):
+        drawing.draw_value_map(run, index=3)
+    with pytest.raises(ValueError, match="valences must be None without goals, but is"):
+        drawing.draw_value_map(run, valences=[1.0])

@@ -126,6 +126,25 @@ def test_workers_are_threads_at_most_so_many(monkeypatch):
     assert asked == [3, 1, 2, 3]
 
 
+def test_a_worker_of_joblib_s_runs_as_many_threads_as_joblib_leaves_to_it():
+    joblib = pytest.importorskip("joblib")
+    with joblib.parallel_config("loky", inner_max_num_threads=1):
+        found = joblib.Parallel(2)(joblib.delayed(simulation.usable_threads)(place_cells([3]), WORLD) for _ in range(2))
+    assert found == [1, 1]
+
+
+def test_a_sweep_takes_any_iterable_of_conditions_and_no_other():
+    first, second, *_ = CONDITIONS
+    by_name = {"one": first, "other": second}
+    for conditions in (iter((first, second)), by_name.values(), (each for each in (first, second))):
+        assert_the_same(sweep(conditions, progress=False), [first, second])
+    for wrong, message in ((5, "conditions must be an iterable of Conditions, such as a list, but is 5"),
+                           (first, "conditions must be an iterable of Conditions, such as a list, but is Condition"),
+                           (by_name, "condition must be a Condition, but is 'one'")):
+        with pytest.raises(ValueError, match=message):
+            sweep(wrong)
+
+
 def test_a_process_pool_that_breaks_is_reported_and_the_next_call_does_the_rest():
     """A killed worker breaks the whole process pool, which loses all unfinished tasks."""
     conditions = [Condition(place_cells([3]), WORLD, 1_000_000, 1, seed) for seed in range(4)]
