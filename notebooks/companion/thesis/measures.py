@@ -9,8 +9,7 @@
 """
 
 import numpy as np
-from scipy.optimize import isotonic_regression
-from scipy.stats import norm, rankdata
+import scipy
 
 from neorl.statistics import Estimate, binned_rate, estimate, quotient
 
@@ -25,7 +24,7 @@ def exact(value):
 
 def widened(found, together):
     """An `Estimate` of 95 %, as one of some intervals that hold together with 95 %."""
-    by = norm.ppf(1 - 0.025 / together) / norm.ppf(0.975)
+    by = scipy.stats.norm.ppf(1 - 0.025 / together) / scipy.stats.norm.ppf(0.975)
     value, low, high = found
     return Estimate(value, value - by * (value - low), value + by * (high - value))
 
@@ -74,8 +73,8 @@ def rank_correlation(*samples, axis):
     """Spearman's correlation of the samples' order with their values, for `estimate`; scipy's takes one pair at a time.
     """
     group = np.repeat(np.arange(len(samples)), [sample.shape[axis] for sample in samples])
-    ranks = rankdata(np.concatenate(samples, axis), axis=axis)
-    place = rankdata(group) - (len(group) + 1) / 2
+    ranks = scipy.stats.rankdata(np.concatenate(samples, axis), axis=axis)
+    place = scipy.stats.rankdata(group) - (len(group) + 1) / 2
     off = ranks - (len(group) + 1) / 2
     spread = np.sqrt((off**2).sum(axis) * (place**2).sum())
     return quotient((off * place).sum(axis), spread)
@@ -108,7 +107,7 @@ def _minutes(result, chosen, level):
     rates = binned_rate(result, min(POINTS, result.rewards.shape[1]))
     means = _mean_of_runs(rates, chosen)
     curves = means.reshape(-1, means.shape[-1])
-    monotone = np.array([isotonic_regression(curve).x for curve in curves]).reshape(means.shape)
+    monotone = np.array([scipy.optimize.isotonic_regression(curve).x for curve in curves]).reshape(means.shape)
     reached = (monotone >= level) & (np.asarray(level) > 0)
     middle = (reached.argmax(axis=-1) + 0.5) / means.shape[-1]
     return np.where(reached.any(axis=-1), middle, 1.0) * result.seconds / 60
