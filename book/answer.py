@@ -37,9 +37,9 @@ def headline(record):
     if not {report.verdict(record, name) for name in AGENTS} - {"no verdict", report.NOT_COMPUTED}:
         return (f"This book judges the thesis’s {len(AGENTS)} claims about agents. Verdicts need {RUNS_FOR_A_VERDICT} "
                 "runs of each condition, and this build has fewer.")
-    calibrated = _reproduced(record["claims"], AGENTS)
+    letter, calibrated = (_reproduced(record[part], AGENTS) for part in ("letter", "claims"))
     return (f"With every gap of the text filled by what it prints, or by the simplest value (“to the letter”), "
-            f"{_reproduced(record['letter'], AGENTS)} of the thesis’s {len(AGENTS)} claims about agents are reproduced "
+            f"{letter} of the thesis’s {len(AGENTS)} claims about agents {'is' if letter == 1 else 'are'} reproduced "
             f"({runs(record)} runs of each condition). With {_departing()} of the {len(WITHIN)} gaps filled by other "
             f"values, which fit best (“calibrated”), {calibrated} are: {_reproduced(record['claims'], FITTED)} of the "
             f"{len(FITTED)} claims that were used for the fit, and {_reproduced(record['claims'], NOT_FITTED)} of the "

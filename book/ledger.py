@@ -72,13 +72,38 @@ def beside(record, build):
 def _claim(record, name, of_table):
     """A claim in a line, which opens to the sentence that is judged and all that its verdict rests on."""
     statement, found, verdict = STATEMENTS[name], record["claims"].get(name), report.verdict(record, name)
-    reason = f" <small>{marks.REASONS[verdict]}</small>" if verdict in marks.REASONS else ""
+    reason = f" <small>{marks.REASONS[verdict]}{_wanted(name, found)}</small>" if verdict in marks.REASONS else ""
     cells = [f"<b>{name}</b>", f"{escape(statement.text)} <small>{escape(_deciding(name, found))}</small>",
              f"{marks.html(verdict)}\u00a0{verdict}{reason}"]
     line = "".join(f"<span>{cell}</span>" for cell in cells)
     return "\n\n".join([f'<details class="claim"><summary>{line}</summary>\n<div id="{anchor(name)}">',
                         f"“{statement.quotation}” ({statement.place}).", *_evidence(record, name, of_table),
                         "</div>\n</details>"])
+
+
+def _wanted(name, found):
+    """The runs that would decide what is open in a claim, if the means stay, as text; "" if nothing is."""
+    needed = runs_needed(name, found) if found else 0
+    return f": some {float(f'{needed:.1g}'):,.0f}, if the means stay" if needed else ""
+
+
+def runs_needed(name, found):
+    """The runs of each condition with which no open interval of a claim would cross its bound, if the means stay.
+
+    found: a claim of a record. An interval narrows with the root of the runs. Returns 0 if none is open.
+    """
+    statement, needed = STATEMENTS[name], 0.0
+    for what, (number, _, mark, _) in found["numbers"].items():
+        if mark != "?" or None in number:
+            continue
+        bounds = next((each for part, each in statement.also.items() if f"{what}, ".startswith(f"{part}, ")),
+                      statement.bounds)
+        value, low, high = number
+        for end in (bounds.low, bounds.high):
+            if low <= end <= high and end != value:
+                half = value - low if end < value else high - value
+                needed = max(needed, found["runs"] * (half / (value - end)) ** 2)
+    return needed
 
 
 def _deciding(name, found):

@@ -54,6 +54,9 @@ def test_a_claim_is_a_line_with_the_number_that_decides_and_opens_to_what_its_ve
     assert "B − A, final: 16 of 48 readings agree" in fold
     line, fold = claim("A6")
     assert line.split()[-9:] == "0.19. Thesis: &gt; 0 ? undecided more runs would tell".split()[-9:]
+    numbers = {"A": [[0.03, 0.0, 0.06], "0.01 or more", "?", "asked"]}
+    open_yet = RECORD | {"claims": RECORD["claims"] | {"A6": FOUND | {"verdict": "undecided", "numbers": numbers}}}
+    assert "more runs would tell: some 200, if the means stay" in claim("A6", open_yet)[0]  # 100 · (0.03 / 0.02)²
     line, _ = claim("B3")
     assert "per second of both modalities; place cells: 0.70 [0.60, 0.80], needed: from 0.23 to 0.36. Thes" in line
     line, fold = claim("H1")
@@ -123,7 +126,7 @@ def test_one_headline_stands_on_all_pages_and_counts_what_was_used_to_choose_the
     departing = sum(Reading().choices[name] != TO_THE_LETTER.choices[name] for name in WITHIN)
     assert headline == (
         "With every gap of the text filled by what it prints, or by the simplest value (“to the letter”), 1 of the "
-        f"thesis’s {len(AGENTS)} claims about agents are reproduced (100 runs of each condition). "
+        f"thesis’s {len(AGENTS)} claims about agents is reproduced (100 runs of each condition). "
         f"With {departing} of the {len(WITHIN)} gaps filled by other values, which fit best (“calibrated”), 2 are: 1 "
         "of the 13 claims that were used for the fit, and 1 "
         f"of the other {len(AGENTS) - 13}.")
