@@ -43,8 +43,8 @@ def draw_revaluing(turned, chance):
     minutes, curves = caught_around(turned)
     axes = draw_curves(minutes, curves, "simulated minutes since red discs are wanted, too", "discs caught per minute")
     axes.set_xlim(minutes[0], minutes[-1])
-    axes.axvline(0, color=INK, linewidth=0.7)
     mark_levels(axes, {"Brownian motion": chance})
+    axes.axvline(0, color=INK, linewidth=0.7)
 
 
 def caught_around(turned):
