@@ -312,6 +312,7 @@ def test_the_cost_of_maps_is_judged_by_the_sum_of_what_each_costs(together, expe
     ((made_up(0.2, 0.6), made_up(0.0, 0.4)), "reproduced"),
     ((made_up(0.2, 0.6), made_up(0.0, 0.28)), "partly"),  # as quick, and no better: this was reproduced
     ((made_up(0.2, 0.6), made_up(0.0, 0.4, learned_by=0.5)), "partly"),
+    ((made_up(0.0, 0.6, learned_by=0.4), made_up(0.2, 0.28)), "contradicted"),  # each half in one setting alone
     ((made_up(0.0, 0.6, learned_by=0.4), made_up(0.0, 0.28, learned_by=0.5)), "contradicted")])
 def test_more_maps_are_compared_with_the_quickest_of_those_with_fewer(more, expected):
     fewer = {"slow": made_up(0.0, 0.3, learned_by=0.6), "quick": made_up(0.0, 0.3)}

@@ -253,7 +253,7 @@ def additions(results):
     def alone(name, resolutions):
         return {f"N{n}": results[name, n] for n in resolutions}
 
-    return {"resolutions of place, paper A": (results["layers"], alone("layer", LAYERS), eight),
+    return {"resolutions of paper A": (results["layers"], alone("layer", LAYERS), eight),
             "resolutions of place": (place, alone("place", PRIMES), three),
             "resolutions of object vectors": (objects, alone("objects", PRIMES), three),
             "a modality": (results["both"], {"place cells": place, "object-vector cells": objects}, three)}

@@ -118,7 +118,8 @@ def judge_more_maps(additions):
             for name in counted for which, result in additions[name][1].items()}
     return judged("T6", (least, "minutes sooner"),
                   min(fewest_runs(more, *fewer.values()) for more, fewer, _ in additions.values()),
-                  {"minutes sooner": sooner, "final lead": lead}, parts=[("minutes sooner",), ("final lead",)],
+                  {"minutes sooner": sooner, "final lead": lead},
+                  parts=[(f"minutes sooner, {name}", f"final lead, {name}") for name in counted],
                   testable=any_of(known.values()))
 
 
