@@ -15,6 +15,7 @@ from companion.page.opening import anchor
 from companion.thesis.pins import PINS
 from companion.thesis.priors import WITHIN
 from companion.page.wording import table
+from companion.study import sensitivity
 from companion.study.calibration_targets import CLAIMS as FITTED
 from companion.thesis.reading import TO_THE_LETTER, Reading
 from companion.thesis.statements import AGENTS, APART, CLAIMS, STATEMENTS
@@ -171,13 +172,20 @@ def sections(record, found):
             "Each row sets one choice of the calibrated reading back to the letter and runs the papers again. A claim "
             "is lost if its means no longer agree with the thesis, by more than two standard errors, and gained if "
             f"they come to agree. Of the {_departing()} choices that depart from the letter, {len(found.flips)} were "
-            "set back. [All choices](chapters/assumptions.ipynb) are on the next page.", decides(found)),
+            f"set back, in {_runs_set_back(found)} runs of each condition, fewer than the record has. "
+            "[All choices](chapters/assumptions.ipynb) are on the next page.", decides(found)),
         "Fails in any reading, and why": (
             "However the gaps are filled, these do not come out as stated.", fails(record)),
         "Which claims pull apart": (
             "These agree together less often than if they were independent, in all rows of the table of readings. "
             "Luck only adds agreements, so a pair that hardly ever agrees is strong evidence.", pull_apart(found))}
     return [part for title, (about, text) in parts.items() if text.strip() for part in (f"## {title}", about, text)]
+
+
+def _runs_set_back(found):
+    """The fewest and the most runs with which choices were set back, as text."""
+    numbers = {row.runs for row in sensitivity.setbacks(found.table, found.calibrated.reading).values()} or {0}
+    return " to ".join(map(str, sorted({min(numbers), max(numbers)})))
 
 
 def _departing():

@@ -1,4 +1,4 @@
-"""Compute and record what is reproduced, as `record.json`: ``make record``, some two core-hours.
+"""Compute and record what is reproduced, as `record.json`: ``make record``, some three core-hours.
 
 1. Claims about the papers' agents are judged by runs of the record's own, under both readings: as many as `RUNS` says
    for each group of conditions, from a seed that no search has seen. Their numbers were fixed before, and they are

@@ -49,7 +49,8 @@ def make_tree(tree):
         shutil.copytree(ROOT / "notebooks" / "companion" / room, tree / "notebooks" / "companion" / room)
     shutil.copy(ROOT / "notebooks" / "companion" / "__init__.py", tree / "notebooks" / "companion")
     shutil.copy(ROOT / "Makefile", tree)
-    for path in (each for kind in ("py", "toml", "js", "html") for each in (ROOT / "book").glob(f"*.{kind}")):
+    for path in (each for kind in ("*.py", "*.toml", "*.js", "*.html", "rules_before.json")
+                 for each in (ROOT / "book").glob(kind)):
         shutil.copy(path, tree / "book")  # links would lead the build to the real tree
     (tree / "neorl").mkdir()  # pages depend on the sources here, but import the real package
     (tree / ".cache").mkdir()

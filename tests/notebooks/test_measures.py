@@ -40,8 +40,22 @@ def test_a_lead_in_time_is_that_of_the_mean_over_runs():
     assert minutes_sooner(early, late, 0.5) == pytest.approx([0.5] * 3)  # 150 bins of 0.2 s
     assert minutes_sooner(late, early, 0.5) == pytest.approx([-0.5] * 3)
     assert minutes_sooner(early, late, 2.0) == (0, 0, 0)  # neither reaches it
-    assert minutes_sooner(early, steps_up(250, height=0.4), 0.5).value == pytest.approx(1, abs=0.01)
+    low = steps_up(250, height=0.4)
+    assert minutes_sooner(early, low, 0.5).value == pytest.approx(0.5)  # half of its own level
+    assert minutes_sooner(early, low, 0.5, late).value == pytest.approx(1, abs=0.01)  # that of the best, never
     assert np.isnan(minutes_sooner(steps_up(1, runs=1), late, 0.5).low)
+
+
+def test_a_level_is_as_uncertain_as_those_who_set_it():
+    """Runs climb to levels of their own, so that the mean of others may or may not ever reach nine tenths of theirs."""
+    rng = np.random.default_rng(4)
+    steady = lives(np.tile(np.linspace(0, 0.9, 400), (20, 1)))
+    varied = lives(rng.normal(0.9, 0.4, (20, 1)) * np.ones(400))
+    found = minutes_sooner(steps_up(10, 20, 2.0), steady, 0.9, varied)
+    assert found.low < 1.2 and found.high > 1.25  # reached late, and never: the whole run
+    wide = widened(found, 34)
+    assert 0 < wide.low <= found.low and found.high <= wide.high < 80 / 60  # no farther than any resample
+    assert (found / 2).high == found.high / 2
 
 
 def test_a_lead_in_time_is_not_made_by_the_noise_of_single_runs():

@@ -57,11 +57,14 @@ def test_a_table_leads_to_what_the_verdicts_rest_on_and_has_the_readings_that_we
 
 def test_what_a_verdict_rests_on_is_the_numbers_of_both_readings():
     kept = {"claims": report.kept(networks()), "letter": report.kept(networks(*paper_c()[::-1]))}
-    header, _, rise, lead, *_ = report.numbers(kept, "C1").splitlines()
+    header, _, rise, weak, lead, *_, note = report.numbers(kept, "C1").splitlines()
     assert header == "| Number | Rule | Here, 20 runs or more | To the letter, 20 runs or more |"
-    assert rise == ("| Final reward per second of A, less its early one | more than 0 | ✓\u00a00.05 [0.05, 0.05] | "
-                    "✓\u00a00.40 [0.40, 0.40] |")
-    assert lead.startswith("| lead over Brownian motion | more than 0 | ✓\u00a00.05 [")
+    assert rise == ("| Final reward per second of A, less its early one | 0.01 or more (what a figure shows) | "
+                    "✓\u00a00.05 [0.05, 0.05] | ✓\u00a00.40 [0.40, 0.40] |")
+    assert weak.startswith("| half of C, less A | more than 0 (weak: less than half of what C earns) | ✓\u00a00.10 [")
+    assert lead.startswith("| lead over Brownian motion |  | 0.05 [")
+    assert note == ("The verdict rests on 2 intervals, so that each is one of 97.50\u00a0%: all hold together with "
+                    "95\u00a0%.")
 
 
 def test_a_number_has_a_mark_if_it_decides_and_a_part_says_what_it_makes_of_the_claim():

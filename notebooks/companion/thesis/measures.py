@@ -1,8 +1,9 @@
 """What the rules measure, beside `neorl.statistics`: leads, times, and several intervals in one verdict.
 
 1. Where a verdict rests on k intervals, each is *widened*, so that it holds with 1 − 0.05/k, and all with 95 %: its
-   ends move away from the value as those of a normal distribution would. The greatest or the smallest of several means
-   has the widened intervals of all, since a bootstrapped maximum does not hold with 95 %.
+   ends move away from the value as those of a normal distribution would; those of a time are percentiles. The greatest
+   or the smallest of several means has the widened intervals of all, since a bootstrapped maximum does not hold with
+   95 %.
 2. A *time* is when the mean over runs crosses a level, once it is made monotone by isotonic regression. The first
    window in which a noisy mean reaches a level comes too early. `book/intervals.py` shows how often the intervals hold.
 3. Rewards are per simulated second, *final* is the last fifth of a run.
@@ -11,7 +12,7 @@
 import numpy as np
 import scipy
 
-from neorl.statistics import Estimate, binned_rate, estimate, quotient
+from neorl.statistics import RESAMPLES, Estimate, binned_rate, estimate, quotient
 
 POINTS = 400  # of the curve whose crossing counts
 EARLY, FINAL = (0.0, 0.1), (0.8, 1.0)
@@ -22,8 +23,23 @@ def exact(value):
     return Estimate(value, value, value)
 
 
+class Time(Estimate):
+    """An `Estimate` of minutes that knows its resamples, since these may be of two kinds: a level reached, or never."""
+
+    def __new__(cls, value, resamples, together=1):
+        low, high = np.quantile(resamples, [0.025 / together, 1 - 0.025 / together])
+        self = super().__new__(cls, float(value), min(low, value), max(high, value))
+        self.resamples = resamples
+        return self
+
+    def __truediv__(self, by):
+        return Time(self.value / by, self.resamples / by)
+
+
 def widened(found, together):
     """An `Estimate` of 95 %, as one of some intervals that hold together with 95 %."""
+    if isinstance(found, Time):
+        return Time(found.value, found.resamples, together)
     by = scipy.stats.norm.ppf(1 - 0.025 / together) / scipy.stats.norm.ppf(0.975)
     value, low, high = found
     return Estimate(value, value - by * (value - low), value + by * (high - value))
@@ -80,13 +96,20 @@ def rank_correlation(*samples, axis):
     return quotient((off * place).sum(axis), spread)
 
 
-def minutes_sooner(quick, slow, level):
+def minutes_sooner(quick, slow, share, *others):
     """The simulated minutes by which the mean of a `Result` reaches a level sooner than that of another: `Estimate`.
 
-    level: reward per second. Where it is never reached, the time is the whole run.
+    The level is `share` of the greatest final level among slow and the others, as uncertain as these. Where it is never
+    reached, the time is the whole run.
     """
-    return estimate(lambda one, other, axis: _minutes(slow, other, level) - _minutes(quick, one, level),
-                    np.arange(quick.runs), np.arange(slow.runs))
+    rivals = (slow, *others)
+
+    def statistic(of_quick, *of_rivals, axis):
+        level = share * np.max([_mean_of_runs(each.rate(*FINAL)[:, None], runs)
+                                for each, runs in zip(rivals, of_rivals)], axis=0)
+        return _minutes(slow, of_rivals[0], level) - _minutes(quick, of_quick, level)
+
+    return _resampled(statistic, quick, *rivals)
 
 
 def minutes_to_own_level(*results, share=0.9, of=lambda minutes: minutes):
@@ -99,7 +122,18 @@ def minutes_to_own_level(*results, share=0.9, of=lambda minutes: minutes):
         return of(*(_minutes(result, runs, share * _mean_of_runs(result.rate(*FINAL)[:, None], runs))
                     for result, runs in zip(results, chosen)))
 
-    return estimate(statistic, *(np.arange(result.runs) for result in results))
+    return _resampled(statistic, *results)
+
+
+def _resampled(statistic, *results):
+    """The `Time` of a statistic of the runs chosen from results, by bootstrap."""
+    runs = [np.arange(result.runs) for result in results]
+    value = statistic(*runs, axis=-1)
+    if min(map(len, runs)) < 2:
+        return Time(value, np.array([np.nan]))
+    found = scipy.stats.bootstrap(runs, statistic, n_resamples=RESAMPLES, vectorized=True, axis=-1, method="percentile",
+                                  rng=np.random.default_rng(0))
+    return Time(value, found.bootstrap_distribution)
 
 
 def _minutes(result, chosen, level):

@@ -128,8 +128,8 @@ def sooner_with_more(more, fewer):
 
     more: a `Result`. fewer: {which: `Result`}. Returns {which: `Estimate`}.
     """
-    level = 0.5 * max(result.rate(*FINAL).mean() for result in fewer.values())
-    return {which: minutes_sooner(more, result, level) for which, result in fewer.items()}
+    return {which: minutes_sooner(more, result, 0.5, *(each for each in fewer.values() if each is not result))
+            for which, result in fewer.items()}
 
 
 def judge_persistence(agents):

@@ -12,7 +12,7 @@ from companion.thesis.measures import (EARLY, FINAL, evenness, exact, lead_over_
                                        strength)
 from companion.thesis.statements import STATEMENTS
 from companion.thesis.verdict import (AFTER_TURN, all_of, any_of, fewest_runs, judged, lead_over_brownian, leads,
-                                      learned, share_of_run)
+                                      learned)
 from neorl.statistics import (difference, estimate, points, probability_of_improvement, quotient, ratio, resets)
 
 LENGTH = 150_000  # of the runs of paper A, in steps
@@ -100,16 +100,16 @@ def judge_multiple_layers(by_resolution, together, brownian):
                                                                                   *final.values())},
                 testable=some_learned)
 
-    sooner = minutes_sooner(together, by_resolution[7], 0.5 * final[7].mean())
+    sooner = minutes_sooner(together, by_resolution[7], 0.5)
     earned = {"3, 7 and 23 together": all_final, "N7": final[7], "Brownian motion": brownian.rate()}
     a7 = judged("A7", estimate(ratio, all_final, final[7]), runs,
-                {"share of a run sooner": share_of_run(sooner, together)},
+                {"share of a run sooner": sooner / (together.seconds / 60)},
                 {"lead over N7": estimate(difference, all_final, final[7])},
                 {"final reward per second": {name: estimate(np.mean, rates) for name, rates in earned.items()},
                  "minutes sooner": sooner}, testable=learned(by_resolution[7], brownian))
 
-    level = 0.5 * final[best].mean()
-    sooner = {n: minutes_sooner(together, result, level) for n, result in by_resolution.items()}
+    sooner = {n: minutes_sooner(together, result, 0.5, *(each for each in alone if each is not result))
+              for n, result in by_resolution.items()}
     lead = {n: estimate(difference, all_final, values) for n, values in final.items()}
     chance = probability_of_improvement(all_final, final[best])
     a8 = judged("A8", (least, "minutes sooner"), runs,
@@ -167,8 +167,9 @@ def judge_modalities(place, objects, both, brownian):
                 shown={"finally": estimate(ratio, ovc, pc)}, testable=knows_place)
     b3 = judged("B3", estimate(np.mean, joint), runs, {"place cells": estimate(np.mean, pc)})
 
-    level, alone = 0.9 * max(pc.mean(), ovc.mean()), {"place cells": place, "object-vector cells": objects}
-    sooner = {name: minutes_sooner(both, result, level) for name, result in alone.items()}
+    alone = {"place cells": place, "object-vector cells": objects}
+    sooner = {"place cells": minutes_sooner(both, place, 0.9, objects),
+              "object-vector cells": minutes_sooner(both, objects, 0.9, place)}
     lead = {name: estimate(difference, joint, result.rate(*FINAL)) for name, result in alone.items()}
     b6 = judged("B6", (least, "minutes sooner"), runs, {"minutes sooner": sooner, "final lead": lead},
                 parts=[("minutes sooner",), ("final lead",)], testable=any_of([knows_place, knows_objects]))

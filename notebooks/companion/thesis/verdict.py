@@ -156,11 +156,6 @@ def leads(lead):
     return VISIBLE.decide(lead)
 
 
-def share_of_run(minutes, result):
-    """An `Estimate` in minutes, as a share of the runs of a result."""
-    return Estimate(*(60 * each / result.seconds for each in minutes))
-
-
 def fewest_runs(*results):
     """The smallest number of runs among results."""
     return min(result.runs for result in results)
