@@ -1,8 +1,10 @@
 """The rules that judge claims of the thesis itself, on made-up measurements with a known answer."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from test_claims import brownian, made_up
+from test_claims import brownian, lives, made_up
 
 from companion.chapter_2.maze import Record
 from companion.thesis import claims
@@ -118,3 +120,90 @@ def test_exploration_is_compared_with_the_best_single_map_and_with_chance(togeth
     assert claim.verdict == expected
     assert claim.here.value == pytest.approx(together / max(alone), abs=0.01)
     assert claims.judge_exploration(final(2)[:9], [final(1)], final(1)).verdict == "no verdict"
+
+
+def catching(before, after, final, runs=20):
+    """Runs that catch creeps, this many a second before half-time, in the first tenth after it, and finally."""
+    result = lives(np.full(6_000, 0.1), runs, steps=60_000)
+    hits = np.zeros((runs, 6_000, 2), np.int16)
+    hits[:, ::5, 0] = before
+    hits[:, 3_000:3_600:5, 0], hits[:, 3_600::5, 0] = after, final
+    hits[0, 3_000:3_100] = hits[0, 3_000:3_100, ::-1]  # some are red
+    return replace(result, hits=hits)
+
+
+def moves(first, later, ignorant=0.5):
+    noise = np.random.default_rng(0).normal(0, 0.01, (20, 6))
+    return {"experienced": np.where(np.arange(6) < 2, first, later) + noise, "ignorant": ignorant + noise}
+
+
+@pytest.mark.parametrize("after, frozen, moved, expected", [
+    (catching(1, 5, 5), catching(1, 5, 5), moves(0.1, 0.1), "reproduced"),
+    # Forgets again, and catches no more finally than before: the rise was divided by almost nothing, or less.
+    (catching(1, 5, 0), catching(1, 5, 5), moves(0.1, 0.1), "reproduced"),
+    (catching(1, 2, 5), catching(1, 5, 5), moves(0.1, 0.1), "partly"),  # has to learn
+    (catching(1, 1, 1), catching(1, 1, 1), moves(0.1, 0.1), "partly"),  # no better than chance
+    (catching(1, 5, 5), catching(1, 5, 5), moves(0.3, 0.1), "partly"),  # nearer at later visits
+    (catching(1, 5, 5), catching(1, 5, 5), moves(0.6, 0.6), "partly"),  # ignorant agents are nearer
+    # The ratio of distances was inverted: 0.34 and 0.30, then 0.10 passed.
+    (catching(1, 2, 5), catching(1, 5, 5), moves(0.30, 0.10, 0.34), "contradicted"),
+    (catching(1, 5, 5, runs=9), catching(1, 5, 5), moves(0.1, 0.1), "no verdict")])
+def test_new_desires_are_served_at_once_or_need_learning(after, frozen, moved, expected):
+    turned = {"revalued": after, "frozen": frozen, "wanting": catching(5, 0, 0)}
+    distances = {"both": moved, "place cells": moves(0.9, 0.9)}  # which do not decide
+    claim = claims.judge_changes(turned, catching(1, 1, 1), distances)
+    assert claim.verdict == expected
+    assert claim.numbers["caught a minute, first minute"][0].value == pytest.approx(
+        60 * after.hits[:, 3_000:3_030].sum(axis=(1, 2)).mean() / 6)
+    assert claim.numbers["distance at later visits, ignorant with place cells"][0].value == pytest.approx(0.5, abs=0.01)
+
+
+@pytest.mark.parametrize("together, expected", [(7.0, "reproduced"), (8.5, "contradicted")])
+def test_the_cost_of_maps_is_judged_by_the_sum_of_what_each_costs(together, expected):
+    alone = [np.full(10, 3.0), np.full(10, 5.0)]  # 1 of each is the world's
+    claim = claims.judge_cost(np.full(10, together), alone, np.full(10, 1.0))
+    assert (claim.verdict, claim.here.value) == (expected, pytest.approx((together - 1) / 6))
+    assert claims.judge_cost(np.full(9, 7.0), alone, np.full(10, 1.0)).verdict == "no verdict"
+
+
+@pytest.mark.parametrize("more, expected", [
+    ((made_up(0.2, 0.6), made_up(0.0, 0.4)), "reproduced"),
+    ((made_up(0.2, 0.6), made_up(0.0, 0.28)), "partly"),  # as quick, and no better: this was reproduced
+    ((made_up(0.2, 0.6), made_up(0.0, 0.4, learned_by=0.5)), "partly"),
+    ((made_up(0.0, 0.6, learned_by=0.4), made_up(0.2, 0.28)), "contradicted"),  # each half in one setting alone
+    ((made_up(0.0, 0.6, learned_by=0.4), made_up(0.0, 0.28, learned_by=0.5)), "contradicted")])
+def test_more_maps_are_compared_with_the_quickest_of_those_with_fewer(more, expected):
+    fewer = {"slow": made_up(0.0, 0.3, learned_by=0.6), "quick": made_up(0.0, 0.3)}
+    additions = {name: (each, fewer, brownian()) for name, each in zip(("maps", "a modality"), more)}
+    claim = claims.judge_more_maps(additions)
+    assert claim.verdict == expected and "minutes sooner, a modality, over slow" in claim.numbers
+    assert claim.together == 8
+    nothing = {name: (each, fewer, brownian(0.5)) for name, (each, fewer, _) in additions.items()}
+    assert claims.judge_more_maps(nothing).verdict == "not testable"
+
+
+@pytest.mark.parametrize("steps, expected", [
+    ({"γ 0.8": 0.1, "γ 0.99": 0.11}, "reproduced"), ({"γ 0.8": 0.1, "γ 0.99": 0.3}, "partly"),
+    ({"γ 0.8": 0.1, "γ 0.99": 0.7}, "contradicted")])
+def test_persistence_is_needed_where_the_best_of_temporal_difference_fails(steps, expected):
+    per_step = {name: made_up(final) for name, final in steps.items()}
+    agents = {"place cells": (made_up(0.6), per_step, brownian(0.1))}
+    claim = claims.judge_persistence(agents)
+    assert claim.verdict == expected
+    unlearned = {"both": (made_up(0.6), per_step, brownian(0.7))}
+    assert claims.judge_persistence(unlearned).verdict == "not testable"
+    assert claims.judge_persistence(agents | unlearned).here == claim.here
+
+
+@pytest.mark.parametrize("stays, expected", [
+    ([3.0, 1.0, 0.3], "reproduced"), ([3.0, 1.0, 1.2], "contradicted"), ([1.2, 1.1, 1.0], "contradicted"),
+    ([2.0, 1.0, 0.5], "partly"),  # as motion alone has it: this was reproduced
+    ([0.3, 1.0, 3.0], "contradicted")])
+def test_the_time_scale_is_judged_by_the_stay_in_a_cell_beside_that_of_motion_alone(stays, expected):
+    noise = np.random.default_rng(0).uniform(0.99, 1.01, (20, 3))
+    alone = {"Brownian motion": [2.2, 1.0, 0.45] * noise}
+    claim = claims.judge_time_scale([3, 7, 23], stays * noise, alone)
+    assert claim.verdict == expected and claim.numbers["exponent, Brownian motion"][0].value > 0.5
+    order = [2, 0, 1]
+    assert claim == claims.judge_time_scale([23, 3, 7], (stays * noise)[:, order],
+                                            {name: each[:, order] for name, each in alone.items()})
