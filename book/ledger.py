@@ -84,7 +84,7 @@ def _claim(record, name, of_table):
 def _wanted(name, found):
     """The runs that would decide what is open in a claim, if the means stay, as text; "" if nothing is."""
     needed = runs_needed(name, found) if found else 0
-    return f": some {float(f'{needed:.1g}'):,.0f}, if the means stay" if needed else ""
+    return f": some {float(f'{needed:.2g}'):,.0f} runs, if the means stay" if needed else ""
 
 
 def runs_needed(name, found):
@@ -115,7 +115,7 @@ def _deciding(name, found):
     wanted = DECIDES.get(found["verdict"], "✓" if found["verdict"] == "reproduced" else "✗")
     deciding = [(what, number, bounds) for what, (number, bounds, mark, _) in found["numbers"].items()
                 if mark == wanted and not bounds.startswith("partly")]
-    if any(what == statement.statistic for what, *_ in deciding) or not deciding:
+    if any(what == statement.statistic or number == found["here"] for what, number, _ in deciding) or not deciding:
         return f"{statement.statistic}: {report.number(found)}. {thesis}"
     what, number, bounds = deciding[0]
     needed, _, _ = bounds.partition(" (")

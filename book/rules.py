@@ -32,20 +32,19 @@ def page(record):
 
 
 def moved(record, changes):
-    """What the last change of rules and the present runs moved, a row for each claim in `BEFORE` and reading."""
+    """What the last change of rules asked and asks, and what it and the present runs moved, for both readings."""
     before, rows = json.loads(BEFORE.read_text(encoding="utf-8")), []
     for name in STATEMENTS:
         for reading, part in report.PART_OF.items():
-            if name not in before[part]:
-                continue
-            then, same_rule = before[part][name]["then"], before[part][name]["by the rules of then"]
-            asked = changes.get(name, ["", "unchanged"]) if part == "claims" else ["", ""]
-            rows.append([f"**{name}**" * (part == "claims"), *asked, NAMES[reading],
-                         *(_number(each) for each in (then, same_rule, record[part].get(name)))])
-    head = ["Claim", "Asked", "Asks", "Reading", "Then", "Present runs, rules of then", "Now"]
-    return ("Each claim with what its rule asked before the last change, and asks now; and its verdict with its main "
-            "number: of the runs of then, of the present runs by the rules of then, and of the present runs by the "
-            f"present rules.\n\n{table(head, rows)}")
+            if name in before[part]:
+                then, same_rule = before[part][name]["then"], before[part][name]["by the rules of then"]
+                rows.append([f"**{name}**, {NAMES[reading]}",
+                             *(_number(each) for each in (then, same_rule, record[part].get(name)))])
+    lines = [f"- **{name}** asked: {asked}. It asks: {asks}." for name, (asked, asks) in changes.items()]
+    head = ["Claim", "Runs and rules of then", "Present runs, rules of then", "Present runs and rules"]
+    return "\n\n".join(["## The last change", "What claims asked before it, and what they ask now:", "\n".join(lines),
+                        "Verdicts with their main numbers, by which one sees what runs and what rules have moved:",
+                        table(head, rows)])
 
 
 def _number(found):
