@@ -17,6 +17,7 @@ from companion.page import marks, report
 from companion.page.opening import anchor
 from companion.study import sensitivity
 from companion.thesis.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS
+from companion.thesis.verdict import belongs
 
 # Verdicts of a build that do not contradict the record, in words.
 OPEN = {"undecided": "undecided"} | dict.fromkeys(("no verdict", report.NOT_COMPUTED), "without a verdict")
@@ -96,8 +97,7 @@ def runs_needed(name, found):
     for what, (number, _, mark, _) in found["numbers"].items():
         if mark != "?" or None in number:
             continue
-        bounds = next((each for part, each in statement.also.items() if f"{what}, ".startswith(f"{part}, ")),
-                      statement.bounds)
+        bounds = next((each for part, each in statement.also.items() if belongs(what, part)), statement.bounds)
         value, low, high = number
         for end in (bounds.low, bounds.high):
             if low <= end <= high and end != value:

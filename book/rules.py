@@ -1,8 +1,8 @@
 """The page of rules: what the last change of rules moved, and when each rule was fixed and changed, with its code.
 
 `rules.toml` has the history, with a digest of each rule as it stands, so that none changes without an entry, and
-`rules_before.json` the verdicts before the last change: of the runs recorded then, and of the present runs by the rules
-of then. So one sees what the rules moved, and what the runs did.
+`rules_before.json` has the verdicts of the rules before the last change, on the runs that were recorded by then and on
+the present ones. So one sees what the rules moved, and what the runs did.
 """
 
 import hashlib
@@ -37,11 +37,10 @@ def moved(record, changes):
     for name in STATEMENTS:
         for reading, part in report.PART_OF.items():
             if name in before[part]:
-                then, same_rule = before[part][name]["then"], before[part][name]["by the rules of then"]
-                rows.append([f"**{name}**, {NAMES[reading]}",
-                             *(_number(each) for each in (then, same_rule, record[part].get(name)))])
+                rows.append([f"**{name}**, {NAMES[reading]}", *map(_number, (
+                    before[part][name]["earlier runs"], before[part][name]["present runs"], record[part].get(name)))])
     lines = [f"- **{name}** asked: {asked}. It asks: {asks}." for name, (asked, asks) in changes.items()]
-    head = ["Claim", "Runs and rules of then", "Present runs, rules of then", "Present runs and rules"]
+    head = ["Claim", "Earlier runs and rules", "Present runs, earlier rules", "Present runs and rules"]
     return "\n\n".join(["## The last change", "What claims asked before it, and what they ask now:", "\n".join(lines),
                         "Verdicts with their main numbers, by which one sees what runs and what rules have moved:",
                         table(head, rows)])

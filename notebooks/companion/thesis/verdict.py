@@ -78,7 +78,7 @@ def judged(name, here, runs, asked=None, also=None, shown=None, parts=None, test
                for what, of, found, role in bounded}
     wide = {of: widened(found, together) for of, found in own.items()}
     if derived:
-        here = derived([*wide.values()] or [found for what, (found, *_) in numbers.items() if _belongs(what, among)])
+        here = derived([*wide.values()] or [found for what, (found, *_) in numbers.items() if belongs(what, among)])
         numbers |= {_label(statement.statistic, of): (found, None, "shown") for of, found in wide.items()}
     else:
         here = wide[""]
@@ -89,7 +89,7 @@ def judged(name, here, runs, asked=None, also=None, shown=None, parts=None, test
     whole = [what for what in decided if numbers[what][2] == "asked"]
     if parts is None:
         parts = [(what,) for what in decided if what not in whole] or [(what,) for what in whole]
-    parts = tuple(tuple(what for what in decided if any(_belongs(what, part) for part in each)) for each in parts)
+    parts = tuple(tuple(what for what in decided if any(belongs(what, part) for part in each)) for each in parts)
     found = outcome(decided, whole, parts, testable)
     if found == "contradicted":
         found = CONTRADICTED.get(statement.kind, found)
@@ -105,7 +105,8 @@ def _label(what, of):
     return f"{what}, {of}" if of else what
 
 
-def _belongs(label, what):
+def belongs(label, what):
+    """Whether the name of a number is that of a group of numbers, or begins with it, as in "lead, N10" of "lead"."""
     return f"{label}, ".startswith(f"{what}, ")
 
 
