@@ -43,7 +43,7 @@ TIMED := performance
 CONCLUSION := chapter_5
 TOGETHER := $(filter $(NAMES),$(LONG)) $(filter-out $(LONG) $(TIMED) $(CONCLUSION),$(NAMES))
 SOURCES := $(shell find neorl notebooks/companion -type f -not -path '*/__pycache__/*') environment.txt \
-    $(addprefix book/,cells.py compute.py excerpts.py programs.py)
+    $(addprefix book/computing/,cells.py compute.py excerpts.py programs.py)
 HTML := _build/html/index.html
 page = $(1:%=$(CHAPTERS)/%.ipynb)
 
@@ -59,7 +59,7 @@ book: .venv/ready
 # Threads of linear algebra that wait for each other beside another notebook took fifty times as long as one thread.
 book test: export OPENBLAS_NUM_THREADS := 1
 $(CHAPTERS)/%.ipynb: notebooks/%.ipynb $(SOURCES) $(CHAPTERS)/.parameters
-	@$(BIN)/python book/compute.py $< --runs $(RUNS) $(if $(STEPS),--steps $(STEPS)) --reading $(READING)
+	@$(BIN)/python book/computing/compute.py $< --runs $(RUNS) $(if $(STEPS),--steps $(STEPS)) --reading $(READING)
 
 $(call page,$(TIMED)): | $(call page,$(TOGETHER))
 $(call page,$(CONCLUSION)): $(call page,$(filter-out $(CONCLUSION),$(NAMES)))
@@ -73,9 +73,9 @@ $(CHAPTERS)/.parameters: FORCE
 	@mkdir -p $(@D)
 	@echo "$(RUNS) $(STEPS) $(READING)" | cmp -s - $@ || echo "$(RUNS) $(STEPS) $(READING)" > $@
 
-$(CHAPTERS)/claims-table.md: $(call page,$(TOGETHER) $(filter $(NAMES),$(TIMED) $(CONCLUSION))) $(wildcard book/*.py) \
+$(CHAPTERS)/claims-table.md: $(call page,$(TOGETHER) $(filter $(NAMES),$(TIMED) $(CONCLUSION))) $(wildcard book/*/*.py) \
     $(wildcard book/*.toml book/star.* book/rules_before.*) book/_toc.yml $(wildcard book/record.*)
-	@$(BIN)/python book/tables.py
+	@$(BIN)/python book/writing/tables.py
 
 # Readers of the last book have it until the next is complete.
 $(HTML): $(CHAPTERS)/claims-table.md $(shell find book -type f -not -path '$(CHAPTERS)/*' -not -path '*/__pycache__/*') \
@@ -107,7 +107,7 @@ pages: .venv/ready
 	$(BIN)/python tests/pages.py $(PAGES)
 
 verify: .venv/ready
-	$(BIN)/python book/verify.py --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
+	$(BIN)/python book/computing/verify.py --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
 
 fuzz: .venv/ready
 	$(BIN)/python tests/fuzzed_kernels.py $(SETTINGS)
@@ -118,13 +118,13 @@ lab: .venv/ready
 	    $(if $(filter 0,$(shell id -u)),--allow-root) $(ARGS)
 
 record: .venv/ready
-	@$(BIN)/python book/record.py
+	@$(BIN)/python book/computing/record.py
 
 readme: .venv/ready
-	$(BIN)/python book/readme.py
+	$(BIN)/python book/writing/readme.py
 
 pictures: .venv/ready
-	$(BIN)/python book/moving.py
+	$(BIN)/python book/writing/moving.py
 
 bench: .venv/ready
 	$(BIN)/python -m pytest --benchmark-only --benchmark-disable-gc tests/benchmarks.py
@@ -137,13 +137,13 @@ wheel: .venv/ready
 	    status=$$?; rm -f neorl/browser/*.wasm; exit $$status
 
 # Pins are complete, so pip need not resolve anything; modules are compiled when first used, which is far fewer. Pages
-# find `companion` from any folder.
+# find `companion` from any folder, and what computes and writes the book finds its parts.
 .venv/ready: environment.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; name it with make PYTHON=...")'
 	$(PYTHON) -m venv --clear .venv
 	$(BIN)/python -m pip install --quiet --no-deps --no-compile -r environment.txt
 	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
-	cd .venv/lib/python3.* && echo "$(CURDIR)/notebooks" > site-packages/pages.pth
+	cd .venv/lib/python3.* && printf "%s\n" "$(CURDIR)/notebooks" "$(CURDIR)/book" > site-packages/pages.pth
 	touch $@
 
 clean:

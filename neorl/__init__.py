@@ -28,7 +28,9 @@ The package is organised in rooms; a module imports only from its own room and f
 - `neorl.agents`: agents as data, and the `Learner`;
 - `neorl.beyond`: learners that go beyond the thesis;
 - `neorl.worlds`: the interface of worlds, WaterWorld and others, and the rollout of an agent in them;
-- `neorl.core`: the kernels, scenes, modalities and maps.
+- `neorl.core`: the agent: scenes, modalities, maps, and the kernels that learn and choose;
+- `neorl.kernels`: how kernels are compiled, cached and called;
+- `neorl.common`: checks, files, warnings.
 """
 
 from neorl.agents.agent import Agent, Desire, Node, Place
@@ -38,10 +40,8 @@ from neorl.agents.papers import (brownian, multimodal, network_a, network_b, net
                                  place_cells)
 from neorl.agents.rules import CALIBRATED, GREEDY, TO_THE_LETTER, Contacts, Learning, Policy
 from neorl.core import modality
-from neorl.core.calls import execute
 from neorl.core.direction import heading, turn
 from neorl.core.horde import learn, superpose
-from neorl.core.kernel import array, kernel, kernel_maker
 from neorl.core.maps import NresMap
 from neorl.core.modality import Axis, Modality, cartesian, polar
 from neorl.core.policy import greedy, softmax
@@ -51,6 +51,9 @@ from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
 from neorl.experiments.run import Run, Trajectory
 from neorl.experiments.simulation import simulate, sweep
+from neorl.kernels.annotations import array
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import kernel, kernel_maker
 from neorl.worlds import walls
 from neorl.worlds.arena import Arena
 from neorl.worlds.arm import Arm

@@ -26,12 +26,12 @@ from typing import Any, Self, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from neorl import checks
-from neorl.core.identity import name_of
+from neorl.common import checks
+from neorl.common.extras import require
+from neorl.common.files import write_whole
+from neorl.common.warn import warn
 from neorl.core.modality import MODALITIES
-from neorl.extras import require
-from neorl.files import write_whole
-from neorl.warn import warn
+from neorl.kernels.identity import name_of
 
 SUFFIXES = (".toml", ".json")
 MAIN = "__main__:"  # before the names of what the running program defines

@@ -11,7 +11,7 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from neorl import checks
+from neorl.common import checks
 from neorl.experiments.result import Result
 from neorl.worlds.waterworld import WaterWorld
 

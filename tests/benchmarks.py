@@ -9,10 +9,10 @@ from explorer_page import write_page
 
 from companion.performance.bound import drawn_steps
 from neorl import Explorer, Run, WaterWorld, multimodal, place_cells, simulate
-from neorl.core.calls import execute
-from neorl.core.kernel import kernel
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import kernel
 
 STEPS = 1_000_000
 RATES = np.float32(0.03) * np.array([0.4, 0.3, 0.2, 0.1], np.float32)

@@ -33,8 +33,8 @@ import numpy as np
 
 import helpers
 from neorl import CARDINAL, Agent, Axis, Modality, Node, Policy, Scene, World, kernel, kernel_maker
-from neorl.core.kernel import array
 from neorl.core.modality import PLACE_CELL
+from neorl.kernels.annotations import array
 from neorl.worlds.world import Dynamics
 
 RULE, CONSTANT, TABLE, ACTION, SHIFT = {rule}, {constant}, np.array([0.0, {table}]), {action}, {shift}
@@ -134,6 +134,7 @@ def lasting(kind, *made_of):
 def paid(how, program, numbers):
     """The reward of a step, by one of the ways to run an agent or a world."""
     from neorl import Condition, Learner, Run, Scene, gym, simulate, sweep
+    from neorl.core.coordinates import sense
 
     agent, world, size = program.agent(), program.Mine(), {"steps": 2, "runs": 1}
     action = sum(numbers[part] for part in ACTION)
@@ -150,7 +151,7 @@ def paid(how, program, numbers):
     if how == "World":
         return world.step(world.reset(0), action)[0]
     if how == "Modality":
-        coordinate, = program.AXIS.coordinates(Scene((0.5, 0.5)), 1.0)[0]
+        coordinate, = sense(program.AXIS, Scene((0.5, 0.5)), 1.0)[0]
         return sum(numbers.values()) + coordinate - numbers["constant"] - numbers["default"]
     if how in ("sweep", "pool"):
         with ProcessPoolExecutor(1, get_context("spawn")) if how == "pool" else nullcontext() as pool:

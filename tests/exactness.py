@@ -23,10 +23,10 @@ import golden
 from same import newborn
 
 from neorl import Run, simulate
-from neorl.core.calls import execute
-from neorl.core.kernel import is_tuple
+from neorl.common.files import cache_folder
 from neorl.experiments import simulation
-from neorl.files import cache_folder
+from neorl.kernels.annotations import is_tuple
+from neorl.kernels.execution import execute
 
 ROOT = Path(__file__).parents[1]
 RECORD = json.loads(golden.RECORD.read_text())
@@ -115,8 +115,8 @@ def in_webassembly(name, steps):
     if golden.changes_of(name) or golden.agent_of(name).policy.choose is not golden.Policy().choose:
         return None
     machine, sizes, arguments = copied(golden.born(name))
-    reward = machine.call("rollout", sizes, last_step=steps, bin_steps=steps, **arguments)
-    return golden.recorded(name, reward, golden.agent_of(name), arguments["memory"].q[1],
+    machine.call("rollout", sizes, last_step=steps, **arguments)
+    return golden.recorded(name, arguments["log"].paid[1][0], golden.agent_of(name), arguments["memory"].q[1],
                            views(arguments["world_state"]))
 
 

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from excerpts import WIDGET_STATE, WIDGET_VIEW, script
+from computing.excerpts import WIDGET_STATE, WIDGET_VIEW, script
 from ipywidgets.embed import dependency_state, embed_data
 
 BOOK = Path(__file__).parent.parent / "book"

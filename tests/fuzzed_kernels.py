@@ -20,10 +20,10 @@ import numpy as np
 
 from neorl import (CARDINAL, Actions, Agent, Axis, Desire, Learner, Learning, Modality, Node, Policy, Run, Scene, World,
                    forager, kernel, network_d, simulate)
-from neorl.core.kernel import array, arrays
 from neorl.core.stream import randint
 from neorl.gym.environment import WorldEnv
 from neorl.gym.vector import VectorWorldEnv
+from neorl.kernels.annotations import array, arrays
 from neorl.worlds.world import Dynamics
 
 AT_ONCE = 100  # settings in a process

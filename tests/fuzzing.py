@@ -29,7 +29,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from neorl import greedy, kernel
-from neorl.core.kernel import Kernel
+from neorl.kernels.kernel import Kernel
 
 SECONDS = 100 if numba.config.DISABLE_JIT else 900  # compiling is slow on a busy machine
 MEMORY = 12 * 2**30  # bytes of address space, so that an excessive list raises an error before memory is exhausted

@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 EXTRAS = "plot,wasm,gym,data,cluster"
-FOLDERS = [str(ROOT / "tests" / name) for name in ("core", "worlds", "agents", "experiments")]
+FOLDERS = [str(ROOT / "tests" / name) for name in ("kernels", "core", "worlds", "agents", "experiments")]
 ALONE = """
 import contextlib, importlib, io, pkgutil, re, sys
 from pathlib import Path

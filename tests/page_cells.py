@@ -9,10 +9,10 @@ from pathlib import Path
 from symtable import symtable
 from types import SimpleNamespace
 
-from cells import tags, with_values
+from computing.cells import tags, with_values
 from markdown_it import MarkdownIt
 from matplotlib import pyplot as plt
-from programs import changed_names, figure_of, read_names, statements
+from computing.programs import changed_names, figure_of, read_names, statements
 
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 SMALL = {"runs": 2, "steps": 1_000, "seed": 0}

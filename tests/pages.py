@@ -23,10 +23,10 @@ from pathlib import Path
 sys.path += [str(Path(__file__).parents[1] / folder) for folder in ("book", "notebooks")]
 
 # ruff: noqa: E402
-import excerpts
+from computing import excerpts
 import nbformat
 import yaml
-from cells import tags, with_values
+from computing.cells import tags, with_values
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 from nbformat.v4 import new_code_cell, new_notebook

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from public_uses import (BOARD, CONDITION, MAZE, POOL, RESULT, SCENE, SCENES, VESSEL, acted, agents, begun,
                          described_paths, fields_of, in_a_loop, live, live_in, live_in_state, make_with, method,
                          new_env, new_learner, paper, paths, q, reals, resolutions, saved, saved_as, scene_of,
-                         scene_then, seeds, sense, shares, states, step_with, tile, use_modality, want_it)
+                         scene_then, seeds, shares, states, step_with, tile, tile_by, use_modality, want_it)
 
 import neorl
 from neorl import (CARDINAL, Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learner, Learning, Modality,
@@ -16,12 +16,14 @@ from neorl import (CARDINAL, Actions, Agent, Arena, Arm, Axis, Condition, Contac
 from neorl.agents import learner
 from neorl.agents.beyond import forager
 from neorl.agents.individual import Individual
-from neorl.core import horde, kernel
-from neorl.core.identity import identity
-from neorl.core.kernel import arrays
+from neorl.core import horde
+from neorl.core.coordinates import sense, tune
 from neorl.core.modality import MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, cartesian, polar
 from neorl.core.stream import new_stream
 from neorl.gym import environment, playing, vector
+from neorl.kernels import kernel
+from neorl.kernels.annotations import arrays
+from neorl.kernels.identity import identity
 from neorl.worlds import walls, world
 
 TABLE = {
@@ -37,10 +39,10 @@ TABLE = {
     "neorl.core.modality.Modality, of landmarks": entry(
         Modality, name=["cell"], axes=[polar("landmarks", 1)], landmarks=[[(0.1, 0.2)], ((0, 1), (1, 1))],
         then=use_modality),
-    "neorl.core.modality.Modality.tune": entry(
-        OBJECT_VECTOR_CELL.tune, vectors=[np.ones((3, 2)), [1, 2], ((0.5, 0.5),)]),
-    "neorl.core.modality.Modality.coordinates": entry(
-        PLACE_CELL.coordinates, scene=[Scene(np.array([0.5, 0.5]))], size=st.floats(0.1, 10)),
+    "neorl.core.coordinates.tune": entry(
+        tune, modality=[OBJECT_VECTOR_CELL], vectors=[np.ones((3, 2)), [1, 2], ((0.5, 0.5),)]),
+    "neorl.core.coordinates.sense": entry(
+        sense, modality=[PLACE_CELL], scene=[Scene(np.array([0.5, 0.5]))], size=st.floats(0.1, 10)),
     "neorl.core.modality.cartesian": entry(
         lambda of, first, second, intervals: cartesian(of, first, second, intervals=intervals), of=["position"],
         first=[(0, 1)], second=[(-1, 1), [0.5, 3]], intervals=[None, 4], also=("ranges", "low", "high"),
@@ -63,10 +65,10 @@ TABLE = {
     "neorl.core.horde.as_vectors": entry(
         horde.as_vectors, values=[np.ones((3, 4)), np.zeros(4), [1, 2, 3, 4]],
         actions=[CARDINAL]),
-    "neorl.core.kernel.kernel": entry(
+    "neorl.kernels.kernel.kernel": entry(
         lambda function: live(neorl.place_cells([3], policy=Policy(choose=kernel.kernel(function)))),
         function=[lambda value, stream: 1], also="kernel"),
-    "neorl.core.kernel.kernel_maker": entry(make_with, function=[lambda t: kernel.kernel(lambda value, stream: 1)]),
+    "neorl.kernels.kernel.kernel_maker": entry(make_with, function=[lambda t: kernel.kernel(lambda value, stream: 1)]),
     "neorl.core.policy.softmax": entry(
         softmax, temperature=st.floats(0.01, 5),
         then=lambda choose: live(neorl.place_cells([3], policy=Policy(choose=choose)))),
@@ -99,9 +101,9 @@ TABLE = {
         WaterMaze, places=[((0.3, 0.4),), [(0.5, 0.5), (0.6, 0.4)]], trials_a_day=st.integers(1, 5),
         radius=st.floats(0.01, 0.25), trial_seconds=st.floats(0.1, 99), fps=st.integers(1, 100), then=live_in),
     "neorl.worlds.walls.table": entry(walls.table, walls=[[(0, 0.5, 0.25, 1)], ()]),
-    "neorl.worlds.walls.distance": entry(walls.distance, walls=[[(0, 0.5, 0.25, 1)]], then=sense),
+    "neorl.worlds.walls.distance": entry(walls.distance, walls=[[(0, 0.5, 0.25, 1)]], then=tile_by),
     "neorl.worlds.walls.distance_along": entry(
-        walls.distance_along, walls=[[(0, 0.5, 0.25, 1)]], x=st.floats(0.1, 2), y=reals, also="length", then=sense),
+        walls.distance_along, walls=[[(0, 0.5, 0.25, 1)]], x=st.floats(0.1, 2), y=reals, also="length", then=tile_by),
     "neorl.worlds.world.World.reset": entry(BOARD.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
     "neorl.worlds.world.World.step": entry(
         BOARD.step, state=states, action=["N", 0, "no-op", np.int8(4)]),

@@ -4,16 +4,18 @@ import inspect
 
 import neorl
 from neorl.agents import agent, beyond, individual, learner, papers
-from neorl.core import horde, kernel, maps, modality, policy, scene, stream
+from neorl.core import coordinates, horde, maps, modality, policy, scene, stream
 from neorl.gym import environment, playing, vector
+from neorl.kernels import annotations, kernel
 from neorl.worlds import arena, arm, vessel, walls, water_maze, waterworld, world
 
-MODULES = (neorl, agent, beyond, individual, learner, papers, horde, kernel, maps, modality, policy, scene,
-           stream, arena, arm, vessel, walls, water_maze, waterworld, world, environment, playing, vector)
+MODULES = (neorl, agent, annotations, beyond, coordinates, individual, learner, papers, horde, kernel, maps, modality,
+           policy, scene, stream, arena, arm, vessel, walls, water_maze, waterworld, world, environment, playing,
+           vector)
 # Classes that only kernels or the package itself instantiate; kernels refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
     "agents.individual.Individual", "agents.individual.Output", "agents.learner.Here", "agents.learner.Offer",
-    "core.kernel.Kernel", "core.kernel.Record", "core.kernel.Signature", "core.scene.Scene",
+    "core.scene.Scene", "kernels.annotations.Record", "kernels.annotations.Signature", "kernels.kernel.Kernel",
     "gym.playing.Played", "experiments.result.Result", "experiments.run.Trajectory", "worlds.arena.ArenaRules",
     "worlds.arena.ArenaState", "worlds.waterworld.Rules",
     *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")
@@ -22,17 +24,19 @@ MADE_INSIDE = {f"neorl.{name}" for name in (
 # Functions for authors of kernels and worlds with types and sizes of their own. They check nothing, since they are
 # called often or at import.
 FOR_AUTHORS = {f"neorl.{name}" for name in (
-    *(f"core.kernel.{name}" for name in (
-        "Kernel.compiled_for", "array", "arrays", "check_kernel", "fields", "full_name", "function", "function_of",
-        "inlined", "inlined_kernel", "is_tuple", "length", "mapped", "new_tuple", "tabled")),
-    *(f"core.modality.{name}" for name in (
-        "Modality.check_axes", "as_radians", "as_turns", "check_faults", "choices_of", "space_of")),
+    *(f"kernels.annotations.{name}" for name in (
+        "array", "arrays", "fields", "function", "is_tuple", "length", "mapped", "new_tuple", "tabled")),
+    *(f"kernels.kernel.{name}" for name in (
+        "Kernel.compiled_for", "check_kernel", "full_name", "function_of", "inlined", "inlined_kernel")),
+    *(f"core.coordinates.{name}" for name in (
+        "as_radians", "as_turns", "check_faults", "choices_of", "space_of")),
+    "core.modality.Modality.check_axes",
     "gym.vector.VectorWorldEnv.advance",
-    "agents.papers.paper_agent", "core.calls.execute", "core.kernel.announcing", "core.kernel.jit_is_off",
+    "agents.papers.paper_agent", "kernels.execution.execute", "kernels.kernel.jit_is_off",
     "core.scene.checked_scene", "worlds.world.check_arrays",
     "worlds.walls.checked", "worlds.world.check_definition", "worlds.world.check_outcome",
     "worlds.world.check_rules", "worlds.world.checked_rules")}
-NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian", "neorl.core.kernel.interpreting"}  # they take no arguments
+NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian", "neorl.kernels.kernel.interpreting"}  # they take no arguments
 
 
 def public_names():

@@ -11,12 +11,13 @@ from hypothesis import strategies as st
 import neorl
 from neorl import (Agent, Arena, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap, Policy, Result,
                    Run, Scene, Vessel, WaterMaze, WaterWorld)
-from neorl.core import kernel
-from neorl.description import described, restored
-from neorl.core.identity import identity
-from neorl.core.kernel import arrays
+from neorl.core.coordinates import sense
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
+from neorl.description import described, restored
 from neorl.gym import environment
+from neorl.kernels import kernel
+from neorl.kernels.annotations import arrays
+from neorl.kernels.identity import identity
 
 def learned(individual):
     """The numbers of a `Learner` or `Run`, but for a working memory in which NaN stands for no direction."""
@@ -43,7 +44,7 @@ def tile(axis):
     return use_modality(Modality("cell", [axis], [(0.1, 0.2)] if axis.of == "landmarks" else ()))
 
 
-def sense(kernel):
+def tile_by(kernel):
     return tile(Axis(kernel))
 
 
@@ -52,7 +53,7 @@ def use_modality(cells):
     assert restored(described(cells)) == cells
     board = WaterWorld(n_creeps=2)
     return (NresMap(3, cells).encode(np.full((2, len(cells.axes)), 0.3)),
-            cells.coordinates(board.reset(0).scene, board.size) if cells.least_axes <= 2 else None)
+            sense(cells, board.reset(0).scene, board.size) if cells.least_axes <= 2 else None)
 
 
 def want_it(desire):

@@ -5,10 +5,10 @@ import hashlib
 import numpy as np
 
 from neorl import Learner, Result, Run
-from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
 from neorl.experiments import simulation
 from neorl.experiments.bins import new_bins
+from neorl.kernels.annotations import arrays
 
 
 def numbers(values):

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from neorl import files
+from neorl.common import files
 
 
 def share_compiled(folder):

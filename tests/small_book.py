@@ -49,9 +49,11 @@ def make_tree(tree):
         shutil.copytree(ROOT / "notebooks" / "companion" / room, tree / "notebooks" / "companion" / room)
     shutil.copy(ROOT / "notebooks" / "companion" / "__init__.py", tree / "notebooks" / "companion")
     shutil.copy(ROOT / "Makefile", tree)
-    for path in (each for kind in ("*.py", "*.toml", "*.js", "*.html", "rules_before.json")
+    for room in ("computing", "writing"):  # links would lead the build to the real tree
+        shutil.copytree(ROOT / "book" / room, tree / "book" / room)
+    for path in (each for kind in ("*.toml", "*.js", "*.html", "rules_before.json")
                  for each in (ROOT / "book").glob(kind)):
-        shutil.copy(path, tree / "book")  # links would lead the build to the real tree
+        shutil.copy(path, tree / "book")
     (tree / "neorl").mkdir()  # pages depend on the sources here, but import the real package
     (tree / ".cache").mkdir()
     share_compiled(tree / ".cache")
@@ -85,7 +87,8 @@ def start(tree, runs=2, *options):
     environment = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}  # of `make test`
     return subprocess.Popen(command, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                             stderr=subprocess.STDOUT, cwd=tree, start_new_session=True,
-                            env=environment | {"PYTHONPATH": str(ROOT), "NEORL_CACHE": str(tree / ".cache")})
+                            env=environment | {"PYTHONPATH": os.pathsep.join([str(tree / "book"), str(ROOT)]),
+                                               "NEORL_CACHE": str(tree / ".cache")})
 
 
 def build(tree, runs=2, *options):

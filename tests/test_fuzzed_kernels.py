@@ -17,8 +17,8 @@ from fuzzed_kernels import FIELDS, RESET, SETTINGS, THINGS, Wild, WildRules
 from subprograms import printed
 
 from neorl import Run, forager, network_d, simulate
-from neorl.core.kernel import jit_is_off
 from neorl.gym.environment import WorldEnv
+from neorl.kernels.kernel import jit_is_off
 
 
 @dataclasses.dataclass(frozen=True)

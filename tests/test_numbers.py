@@ -8,8 +8,8 @@ import pytest
 import neorl
 from neorl import (Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learning, Node, NresMap, Place,
                    Policy, Result, Trajectory, Vessel, WaterMaze, WaterWorld)
-from neorl.core.identity import identity
 from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL
+from neorl.kernels.identity import identity
 
 AXIS = Axis("position", along=1, low=-1.0, high=2.0, intervals=3, name="y")
 NODE = Node("PC", PLACE_CELL, (3, 7), gain=0.5)

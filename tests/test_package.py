@@ -12,7 +12,7 @@ import grimp
 import pytest
 
 import neorl
-from neorl.extras import require
+from neorl.common.extras import require
 
 ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
@@ -90,7 +90,7 @@ def test_no_modules_import_each_other_in_a_circle():
 
 
 def test_no_name_shadows_a_module():
-    """`import neorl.core.kernel as k` gives the module, though `neorl.kernel` is a function."""
+    """`import neorl.kernels.kernel as k` gives the module, though `neorl.kernel` is a function."""
     modules = [(name.rpartition("."), module) for name, module in sys.modules.items() if name.startswith("neorl.")]
     assert len(modules) > 30
     for (parent, _, name), module in modules:

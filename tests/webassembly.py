@@ -9,8 +9,9 @@ import pytest
 
 from neorl.browser import wasm, worlds
 from neorl.browser.worlds import IN_THE_PLANE, PlaneState, rules_of
-from neorl.core.kernel import array, arrays, fields, length, mapped, new_tuple
-from neorl.core.record import CUT, TRACK
+from neorl.core.layout import CUT, TRACK
+from neorl.kernels.annotations import array, arrays, fields, length, mapped, new_tuple
+from neorl.worlds.rollout import Log
 
 wasmtime = pytest.importorskip("wasmtime")
 
@@ -89,7 +90,8 @@ def sizes_of(run):
     for values in (run.memory, Span(run.state.here, run.state.push)):
         for name, (_, shape) in fields(type(values)).items():
             found |= {size: length for size, length in zip(shape, getattr(values, name).shape) if isinstance(size, str)}
-    return found | {"things": run.world.things, "words": 0, "bins": 1, "kinds": len(run.world.kinds),
+    return found | {"things": run.world.things, "kinds": len(run.world.kinds), "words": 0, "bins": 1, "recorded": 0,
+                    "episodes": 0,
                     **{name: worlds.sizes_of(run.world)[name] for name in ("obstacles", "places", "trials")}}
 
 
@@ -127,5 +129,5 @@ def copied(run):
     return machine, sizes_of(run), {
         "agent": machine.put(widened(run._record, module_of(run))), "memory": machine.put_tuple(run.memory),
         "rules": machine.put_tuple(rules_of(run.world)), "world_state": world_state, "scene": world_state.scene,
-        "total": 0.0, "clock": machine.put(np.zeros(2, np.int64)), "rewards": machine.put(np.zeros(1, np.float32)),
-        "hits": machine.put(np.zeros((1, len(run.world.kinds)), np.int16))}
+        "log": machine.put_tuple(new_tuple(Log, sizes_of(run), {
+            "bin_steps": 2**40, "first_step": 0, "frame_steps": 1}))}

@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 from typing import Annotated
 
-from neorl import checks
 from neorl.agents.rules import Contacts, Learning, Policy
-from neorl.checks import NotNegative, OneOf
+from neorl.common import checks
+from neorl.common.checks import NotNegative, OneOf
 from neorl.core.choices import MapState, Weighting
 from neorl.core.horde import OWN_CELL
 from neorl.core.maps import NresMap

@@ -11,19 +11,19 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl import checks
 from neorl.agents.agent import LEARNED, Agent
-from neorl.agents.compile import compiled, life_of, n_values, own_axes
+from neorl.agents.embodiment import embodied, life_of, own_axes
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
+from neorl.common import checks
+from neorl.common.files import read_arrays, write_arrays
 from neorl.core import life
-from neorl.core.building import TABLES, clear_q, with_values
-from neorl.core.calls import execute
+from neorl.core.building import TABLES, clear_q, n_values, with_values
+from neorl.core.coordinates import check_faults
 from neorl.core.horde import as_vectors
-from neorl.core.kernel import arrays, mapped
-from neorl.core.modality import check_faults
-from neorl.core.record import ENTRIES, Memory
+from neorl.core.layout import ENTRIES, Memory
 from neorl.description import described, restored, warn_of_main
-from neorl.files import read_arrays, write_arrays
+from neorl.kernels.annotations import arrays, mapped
+from neorl.kernels.execution import execute
 from neorl.worlds.former import changes, code_of
 
 # The arrays of `Memory` that have a part for each map, by what the part begins and ends with.
@@ -50,16 +50,19 @@ class Individual:
 
     def _live(self, agent, world, stream, after=None):
         """Begin as an untrained agent. after: a finished one, whose memory is reused if it is large enough."""
-        q = None
-        if after is not None and len(after._memory.q) >= n_values(agent, world):
+        self._agent, self._world, q = agent, world, None
+        record, memory = embodied(agent, world)
+        if after is not None and after._has_room_for(record):
             execute(clear_q, after._record, after._memory)
             q = after._memory.q
         else:
-            fitting_runs(agent, world)
-        self._agent, self._world = agent, world
-        self._record, memory = compiled(agent, world)
-        self._record["stream"] = stream
-        self._record, self._memory = kept_apart(self._record), kept_apart(with_values(self._record, memory, q))
+            fitting_runs(record)
+        record["stream"] = stream
+        self._record, self._memory = kept_apart(record), kept_apart(with_values(record, memory, q))
+
+    def _has_room_for(self, record):
+        """Whether the values of the agent with this record fit into the memory of this one's."""
+        return n_values(record) <= len(self._memory.q)
 
     @property
     def agent(self) -> Agent:
@@ -73,7 +76,7 @@ class Individual:
 
     @property
     def state(self) -> SimpleNamespace:
-        """The fields of the agent's record (`neorl.core.record`), as read-only views; of tables, the rows in use.
+        """The fields of the agent's record (`neorl.core.layout`), as read-only views; of tables, the rows in use.
 
         ``state.maps.cells`` is a column, with a number for each map, and ``state.maps[0].cells`` that of the first.
         """
@@ -83,7 +86,7 @@ class Individual:
 
     @property
     def memory(self) -> Memory:
-        """The agent's `neorl.core.record.Memory`, as read-only views."""
+        """The agent's `neorl.core.layout.Memory`, as read-only views."""
         return mapped(read_only, self._memory)
 
     def q(self, index: int = 0) -> NDArray[np.float32]:
@@ -122,24 +125,17 @@ class Individual:
         Raises ValueError unless it is an `Agent` compatible with the world, MemoryError if its values do not fit into
         the free memory.
         """
-        fitting_runs(checks.instance("agent", agent, Agent), self.world)
-        record, memory = compiled(agent, self.world)
+        record, memory = embodied(checks.instance("agent", agent, Agent), self.world)
+        fitting_runs(record)
         record["stream"] = self._record["stream"]
         record, memory = kept_apart(record), kept_apart(with_values(record, memory))
-        execute(life.begin, record, memory, self._scene, life_of(agent).calls)
+        execute(life.begin, record, memory, self._scene, life_of(agent).functions)
         old_maps = {key: m for m, key in enumerate(_map_keys(self.agent))}
         for m, key in enumerate(_map_keys(agent)):
-            if key not in old_maps:
-                continue
-            was, now = self._record["maps"][old_maps[key]], record["maps"][m]
-            for part, names in OF_A_MAP.items():
-                for name in names:
-                    old, new = getattr(self._memory, name), getattr(memory, name)
-                    width = 2 * len(self.world.actions.names) if name.startswith("trace_") else 1
-                    new[width * now[f"first_{part}"] : width * now[f"end_{part}"]] = old[
-                        width * was[f"first_{part}"] : width * was[f"end_{part}"]]
-            _values_of(agent, record, memory, m)[...] = _values_of(self.agent, self._record, self._memory,
-                                                                   old_maps[key])
+            if key in old_maps:
+                _keep_map(self._record, self._memory, old_maps[key], record, memory, m)
+                _values_of(agent, record, memory, m)[...] = _values_of(self.agent, self._record, self._memory,
+                                                                       old_maps[key])
         for name in ("last_event", "activity"):
             record[name] = self._record[name]
         for e, desire in enumerate(agent.desires):
@@ -224,6 +220,17 @@ class Individual:
                                      f"{saved.shape}; the file is of another version of neorl")
                 mine[...] = saved
         return loaded
+
+
+def _keep_map(old_record, old_memory, old_m, record, memory, m):
+    """Copy the active cells of a map and its memory of how they were reached, all but its values."""
+    was, now = old_record["maps"][old_m], record["maps"][m]
+    for part, names in OF_A_MAP.items():
+        first, end = f"first_{part}", f"end_{part}"
+        for name in names if now[end] > now[first] else ():
+            old, new = (getattr(all_of, name).reshape(of_all["maps"][of_all["n_maps"] - 1][end], -1)
+                        for of_all, all_of in ((old_record, old_memory), (record, memory)))
+            new[now[first] : now[end]] = old[was[first] : was[end]]
 
 
 def _values_of(agent, record, memory, m):

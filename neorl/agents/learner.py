@@ -6,18 +6,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from neorl import checks
 from neorl.agents.agent import Agent
-from neorl.agents.compile import life_of
+from neorl.agents.embodiment import life_of
 from neorl.agents.individual import Individual
 from neorl.agents.memory import kept_apart
-from neorl.checks import LARGEST
-from neorl.core.called import Life
-from neorl.core.calls import bound
-from neorl.core.kernel import kernel, mapped, new_tuple, tabled
-from neorl.core.record import Memory, Record
+from neorl.common import checks
+from neorl.common.checks import LARGEST
+from neorl.core.functions import Life
+from neorl.core.layout import Memory, Record
 from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
 from neorl.core.stream import new_stream
+from neorl.kernels.annotations import mapped, new_tuple, tabled
+from neorl.kernels.execution import bound
+from neorl.kernels.kernel import kernel
 
 UNBORN = "before the first scene"
 
@@ -172,19 +173,19 @@ class Here(NamedTuple):
 @kernel
 def begin(here: Here) -> None:
     """Begin at the scene."""
-    here.life.begin(here.agent, here.memory, here.scene, here.life.calls)
+    here.life.begin(here.agent, here.memory, here.scene, here.life.functions)
 
 
 @kernel
 def act(here: Here) -> int:
     """Choose an action."""
-    return here.life.act(here.agent, here.memory, here.scene, here.life.calls)
+    return here.life.act(here.agent, here.memory, here.scene, here.life.functions)
 
 
 @kernel
 def observe(here: Here) -> None:
     """Learn from the scene."""
-    here.life.observe(here.agent, here.memory, here.scene, here.life.calls)
+    here.life.observe(here.agent, here.memory, here.scene, here.life.functions)
 
 
 class Offer(NamedTuple):

@@ -2,17 +2,17 @@
 
 import numpy as np
 
-from neorl.agents.compile import n_bytes
-from neorl.container import free_memory
-from neorl.core.kernel import mapped
+from neorl.common.container import free_memory
+from neorl.core.building import n_bytes
+from neorl.kernels.annotations import mapped
 
 CACHE_LINES = 128  # bytes; two lines, because processors fetch them in pairs
 PAGE = 4_096
 
 
-def fitting_runs(agent, world):
-    """The number of runs of an agent that fit into nine tenths of the free memory. Raises MemoryError if none fits."""
-    needed = n_bytes(agent, world)
+def fitting_runs(record):
+    """How many runs of an agent fit into nine tenths of the free memory, by its record. MemoryError if none fits."""
+    needed = n_bytes(record)
     return int(usable_bytes(needed, "a run of this agent needs", "choose fewer or coarser maps") // needed)
 
 

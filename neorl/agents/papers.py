@@ -15,10 +15,10 @@ from dataclasses import fields, replace
 from inspect import Parameter, signature
 from typing import Any, TypeVar, get_type_hints
 
-from neorl import checks
 from neorl.agents import rules
 from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
+from neorl.common import checks
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
 
 Maker = TypeVar("Maker", bound=Callable[..., Agent])

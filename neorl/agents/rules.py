@@ -9,11 +9,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated
 
-from neorl import checks
-from neorl.checks import NotNegative, OneOf, Positive, Share
+from neorl.common import checks
+from neorl.common.checks import NotNegative, OneOf, Positive, Share
 from neorl.core.choices import Credit, UpdateOn
-from neorl.core.kernel import check_kernel
 from neorl.core.policy import greedy
+from neorl.kernels.kernel import check_kernel
 
 CREDITS = tuple(name for name in Credit.__members__ if name != "own")
 WHEN_INDIFFERENT = ("random", "no-op")

@@ -6,12 +6,12 @@ in nodes and desires: in what their cells represent and in what they seek.
 
 from collections.abc import Sequence
 
-from neorl import checks
 from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.rules import Learning
+from neorl.common import checks
 from neorl.core.direction import turn
-from neorl.core.kernel import kernel
 from neorl.core.modality import PLACE_CELL, Axis, Modality
+from neorl.kernels.kernel import kernel
 
 AVERSION = -0.3  # the valence of things to avoid; that of things sought is 1
 JOINT_CELLS = {2: 9, 3: 7}  # along each axis, by the number of links

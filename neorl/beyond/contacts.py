@@ -25,12 +25,12 @@ import math
 
 import numpy as np
 
-from neorl.core.called import Own
 from neorl.core.choices import Source
+from neorl.core.functions import UserFunctions
 from neorl.core.geometry import cell_of, locate
-from neorl.core.kernel import inlined_kernel, kernel
-from neorl.core.record import ENTRIES, Memory, Record
+from neorl.core.layout import ENTRIES, Memory, Record
 from neorl.core.scene import ABSENT, Scene
+from neorl.kernels.kernel import inlined_kernel, kernel
 
 APPROACH, FEAR, VISITS = range(3)
 MOST_VISITS = 1e6  # counted at most; a count is a float32
@@ -127,21 +127,21 @@ def forget_left(agent, memory, node, point):
 
 
 @kernel
-def begin_contacts(agent: Record, memory: Memory, scene: Scene, own: Own, n: int, point: int) -> None:
+def begin_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunctions, n: int, point: int) -> None:
     """Start the tracks of a point at its present place, without a history."""
     node = agent.nodes[n]
-    locate(agent, memory, scene, own, node, point, False)
+    locate(agent, memory, scene, user, node, point, False)
     follow(agent, memory, node, point, seen_cells(agent, memory, node), scene.kinds[point] < 0)
     forget_left(agent, memory, node, point)
 
 
 @kernel
-def observe_contacts(agent: Record, memory: Memory, scene: Scene, own: Own, n: int, point: int) -> None:
+def observe_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunctions, n: int, point: int) -> None:
     """Learn, in the maps of a node, from the effect of the last step on one thing, and follow the thing."""
     node, contacts, event = agent.nodes[n], agent.contacts, agent.last_event
     first = memory.tracks[agent.maps[node.first_map].first_track + point]
     met, absent = scene.met[point] != 0, scene.kinds[point] < 0
-    locate(agent, memory, scene, own, node, point, False)
+    locate(agent, memory, scene, user, node, point, False)
     frame = seen_cells(agent, memory, node)
     if event < agent.rates.shape[0] and first.cell >= 0 and (met or not absent):
         approach, fear = 1.0, 1.0
@@ -201,7 +201,7 @@ def remember_back(contacts, memory, t):
 
 
 @kernel
-def evaluate_contacts(agent: Record, memory: Memory, scene: Scene, own: Own, n: int) -> None:
+def evaluate_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunctions, n: int) -> None:
     """Compute the contributions of a node's desires to its Q-vector: see rule 5 of this module."""
     node, contacts, actions, axes = agent.nodes[n], agent.contacts, agent.rates.shape[0], agent.here.shape[0]
     most, best = -1.0, -1
@@ -221,7 +221,7 @@ def evaluate_contacts(agent: Record, memory: Memory, scene: Scene, own: Own, n: 
                 for axis in range(axes):
                     agent.offset[axis] = (desire.target_at[axis] if desire.source == Source.node else
                                           desire.place[axis] - agent.here[axis])
-                locate(agent, memory, scene, own, node, 0, True)
+                locate(agent, memory, scene, user, node, 0, True)
                 frame = seen_cells(agent, memory, node)
             if frame < 0:
                 continue

@@ -17,14 +17,10 @@ function become(choices) {
       Object.assign(desire, { target_valence: 0, total_valence: 0 });
     }
   } else {
-    run = newRun({ ...old, parameters: choices });
-    copy(run.world_state, old.world_state);
-    copy(run.second, old.second);
-    run.rewards.set(old.rewards);
-    run.hits.set(old.hits);
-    run.clock.set(old.clock);
-    const { step, reward, player, changes, trail } = old;
-    Object.assign(run, { step, reward, player, changes, trail });
+    run = newRun({ ...old, bin_steps: old.log.bin_steps, parameters: choices });
+    for (const name of ["world_state", "second", "log"]) copy(run[name], old[name]);
+    const { step, player, changes, trail } = old;
+    Object.assign(run, { step, player, changes, trail });
     call("begin_values");
     call("begin");
     for (const name of ["stream", "activity"]) run.agent[name].set(old.agent[name]);

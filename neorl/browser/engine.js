@@ -23,14 +23,15 @@ function newRun({ parameters: choices, world, steps, bin_steps }) {
   const laid = laidOut(choices);
   const [actions, axes] = [choices.push.length, choices.push[0].length];
   const sizes = { ...laid.sizes, actions, axes, things: world.things, ...world.sizes, kinds: world.kinds.length,
-    bins: Math.ceil(steps / bin_steps), ...Object.fromEntries(OF_VALUES.map((name) => [name, 0])) };
+    bins: Math.ceil(steps / bin_steps), recorded: 0, episodes: 0,
+    ...Object.fromEntries(OF_VALUES.map((name) => [name, 0])) };
   const bytes = 2 ** 20 + 2 * layout.records.Agent.size + bytesOf("Memory", sizes);
   const last = newAgent(new Machine(bytes), sizes, laid).agent.maps.at(-1);
   Object.assign(sizes, { values: last.end_value, cells: last.end_cell, scratch: actions * last.end_cell,
     tracks: last.end_track, traces: last.end_trace, trace_weights: 2 * actions * last.end_trace,
     passed: last.end_passed, left: choices.contacts.trace });
 
-  const machine = new Machine(bytes + 8 * sizes.bins + bytesOf("Memory", sizes)
+  const machine = new Machine(bytes + bytesOf("Log", sizes) + bytesOf("Memory", sizes)
     + bytesOf("Memory", { ...sizes, values: 0 }) + 3 * bytesOf(layout.state, sizes) + bytesOf(layout.rules, sizes));
   const { agent, memory } = newAgent(machine, sizes, laid);
   const worldState = machine.tuple(layout.state, sizes);
@@ -38,11 +39,9 @@ function newRun({ parameters: choices, world, steps, bin_steps }) {
   const { q, goal_range, ...derived } = memory;
   const known = Object.fromEntries(["cuts", ...Object.keys(laid.memory), "goals"].map((name) => [name, derived[name]]));
   return {
-    machine, sizes, world, steps, bin_steps, choices, laid, agent, memory, world_state: worldState,
-    scene: worldState.scene, rules: machine.tuple(layout.rules, sizes, world.rules), step: 0, reward: 0,
-    clock: machine.put("int64", [2]),
-    rewards: machine.put("float32", [sizes.bins]),
-    hits: machine.put("int16", [sizes.bins, sizes.kinds]),
+    machine, sizes, world, steps, choices, laid, agent, memory, world_state: worldState, scene: worldState.scene,
+    rules: machine.tuple(layout.rules, sizes, world.rules), step: 0,
+    log: machine.tuple("Log", sizes, { bin_steps, first_step: 0, frame_steps: 1 }), // without a recording
     double: machine.record("Agent"), // the agent elsewhere, with a memory that has its values but tracks of its own
     elsewhere: machine.tuple("Memory", sizes, { q, goal_range, ...known }),
     there: machine.tuple("Scene", sizes, { ...shared, velocity }),
@@ -192,7 +191,7 @@ function advance({ steps, budget }) {
     const slice = run.player ? 1 : isSeen ? Math.min(BETWEEN, run.slice) : run.slice;
     const next = Math.min(isSeen ? end : seen, run.step + slice, run.changes[0]?.step ?? end);
     const before = performance.now();
-    run.reward = call("rollout", { last_step: next, total: run.reward });
+    call("rollout", { last_step: next });
     run.step = next;
     if (isSeen) leaveTrail();
     if (run.player) run.player.reward += stepSecond(run.player.action);
@@ -210,12 +209,13 @@ function leaveTrail() {
 
 /** Let a run go on for as long again. Its bins stay as many, each twice as long. */
 function extend() {
-  for (const [totals, width] of [[run.rewards, 1], [run.hits, run.sizes.kinds]]) {
+  for (const [totals, width] of [[run.log.rewards, 1], [run.log.hits, run.sizes.kinds]]) {
     const before = totals.slice();
     totals.fill(0);
     before.forEach((total, at) => { totals[width * Math.floor(at / width / 2) + (at % width)] += total; });
   }
-  Object.assign(run, { steps: 2 * run.steps, bin_steps: 2 * run.bin_steps });
+  run.steps *= 2;
+  run.log.bin_steps *= 2;
   return frame();
 }
 
@@ -251,11 +251,11 @@ function frame(steps = 0) {
   const m = maps.indexOf(look.map);
   const { first_track: from, end_track: to } = nresMaps[m];
   return {
-    type: "frame", step: run.step, ended: run.step >= run.steps, reward: run.reward, rewards: run.rewards.slice(),
+    type: "frame", step: run.step, ended: run.step >= run.steps, reward: run.log.paid[0], rewards: run.log.rewards.slice(),
     maps, shapes: maps.map((_, each) => shapeOf(each)), seen: seen(m), steps, agent, things: thingsOf(run),
     trail: run.trail, round: false, obstacles: [], ...VIEWS[world.name](run),
     player: player && { ...body(second), reward: player.reward },
-    hits: world.kinds.map((kind, k) => ({ kind, counts: run.hits.filter((_, i) => i % world.kinds.length === k) })),
+    hits: world.kinds.map((kind, k) => ({ kind, counts: run.log.hits.filter((_, i) => i % world.kinds.length === k) })),
     wants: choices.desires.flatMap(({ kind, valence }) => (kind < 0 ? [] : [{ kind: world.kinds[kind], valence }])),
     active: learnsContacts(m) ? [] : rowsOf(memory.tracks, "TRACK", from, to).map(({ cell }) => cell),
     nodes: choices.names.map((name, n) => ({ name, ...desire(n) })),

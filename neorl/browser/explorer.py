@@ -20,20 +20,21 @@ from importlib import resources
 
 import numpy as np
 
-from neorl import checks
 from neorl.agents import beyond, papers, spaces
 from neorl.agents.agent import LEARNED, STATES, Agent, Desire, Node
-from neorl.agents.compile import chosen, life_of
+from neorl.agents.embodiment import choices_in, life_of
 from neorl.agents.rules import Learning, Policy
 from neorl.browser import wasm
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
-from neorl.core.kernel import is_tuple
-from neorl.core.modality import MODALITIES, PLACE_CELL, choices_of
+from neorl.common import checks
+from neorl.common.extras import require
+from neorl.core.coordinates import choices_of
+from neorl.core.modality import MODALITIES, PLACE_CELL
+from neorl.experiments.bins import bin_steps
 from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
-from neorl.experiments.bins import bin_steps
 from neorl.experiments.simulation import label
-from neorl.extras import require
+from neorl.kernels.annotations import is_tuple
 from neorl.statistics import tolerance_band
 from neorl.worlds.arena import Arena
 from neorl.worlds.arm import Arm
@@ -346,7 +347,7 @@ def _parameters(agent, world):
     """The chosen parameters, ready for JSON, and the names that the page shows."""
     edges = [{"source": each.source if agent.comes_from_node(each) else "", "target": each.target, "of": list(each.of)}
              for each in agent.desires]
-    return _as_json(chosen(agent, world)) | {"names": [node.name for node in agent.nodes], "edges": edges}
+    return _as_json(choices_in(agent, world)) | {"names": [node.name for node in agent.nodes], "edges": edges}
 
 
 def _as_json(values):

@@ -6,8 +6,9 @@ then its key.
 
 import numpy as np
 
-from neorl.core.kernel import array, kernel
 from neorl.core.stream import ONE, draw
+from neorl.kernels.annotations import array
+from neorl.kernels.kernel import kernel
 
 NOTHING, U16, U32 = (np.uint64(value) for value in (0, 16, 32))
 

@@ -4,7 +4,7 @@ There is one for each of `MODULES`, since the numbers of actions and axes are co
 of a module's kernels is compiled for WebAssembly by llvmlite as a whole, so that shared functions occur once, and
 linked by LLD. No interface is written by hand: what an exported function takes follows from the annotations of its
 kernel. Its arguments are a pointer to the result, 0, and a pointer to a table of the kernel's arguments, as in
-`neorl.core.tables`: eight bytes for a number, and for an array its address and its lengths; named tuples, also
+`neorl.kernels.tables`: eight bytes for a number, and for an array its address and its lengths; named tuples, also
 nested ones, field by field, and for an agent's record its address. It returns 0. Memory is the only import; the
 caller's part of it begins at the exported
 global __heap_base.
@@ -30,28 +30,28 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl import files
-from neorl.agents.compile import life_of
+from neorl.agents.embodiment import life_of
 from neorl.agents.individual import OF_A_MAP
 from neorl.agents.papers import brownian
 from neorl.agents.spaces import pilot
+from neorl.beyond import contacts
 from neorl.browser.seeding import start_stream
 from neorl.browser.worlds import PLANE
-from neorl.container import cores, free_memory
-from neorl.beyond import contacts
+from neorl.common import files
+from neorl.common.container import cores, free_memory
+from neorl.common.extras import require
+from neorl.common.warn import warn
 from neorl.core import derived, displacement, life
 from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
-from neorl.core.identity import can_cache, digest_of_source
-from neorl.core.called import Calls, Life
 from neorl.core.derived import begin_values, derive
-from neorl.core.kernel import Record, fields, is_tuple
-from neorl.core.record import CUT, TRACK, Memory, agent_type
+from neorl.core.functions import AgentFunctions, Life
+from neorl.core.layout import CUT, TRACK, Memory, agent_type
 from neorl.experiments.condition import PARTS, source_digest
-from neorl.extras import require
-from neorl.warn import warn
+from neorl.kernels.annotations import Record, fields, is_tuple
+from neorl.kernels.identity import can_cache, digest_of_source
 from neorl.worlds import arena, arm, vessel, water_maze, waterworld
 from neorl.worlds.probe import cell_seen_at, step_second, survey
-from neorl.worlds.rollout import rollout_in
+from neorl.worlds.rollout import Log, rollout_in
 from neorl.worlds.vessel import Vessel
 from neorl.worlds.waterworld import WaterWorld, WaterWorldState
 from neorl.worlds.world import Dynamics
@@ -70,7 +70,7 @@ class Module(NamedTuple):
 def _module(dynamics, agent, world, with_second):
     exports = (start_stream, derive, begin_values, dynamics.reset, life.begin, rollout_in(dynamics), survey,
                cell_seen_at)
-    tuples = Memory, fields(dynamics.reset)["state"], fields(dynamics.reset)["rules"]
+    tuples = Memory, fields(dynamics.reset)["state"], fields(dynamics.reset)["rules"], Log
     if with_second:
         exports, tuples = (*exports, step_second), (*tuples, WaterWorldState)
     record = agent_type(len(world.actions.names), world.actions.axes, ROWS)
@@ -213,11 +213,11 @@ def _described(field):
 def _passed(kernel):
     """The named tuple of a kernel's arguments, which the exported function takes as a table."""
     return NamedTuple(kernel.__name__, [(name, each) for name, each in kernel.__annotations__.items()
-                                      if each not in (Calls, Life) and name != "return"])
+                                      if each not in (AgentFunctions, Life) and name != "return"])
 
 
 def _digest(name):
-    """A digest of the sources alone: by the rules of `neorl.core.kernel`, results do not depend on the compiler.
+    """A digest of the sources alone: by the rules of `neorl.kernels.kernel`, results do not depend on the compiler.
 
     b"" where there is no source.
     """
@@ -310,13 +310,14 @@ def _entry(kernel, life, record):
     """The entry point of a kernel: a function of a table of its arguments. What it calls is compiled into it."""
     import numba
 
-    from neorl.core.compiling import options
-    from neorl.core.tables import SCALARS as TYPES
-    from neorl.core.tables import View
+    from neorl.kernels.compiling import options
+    from neorl.kernels.tables import SCALARS as TYPES
+    from neorl.kernels.tables import View
 
-    taken = [name if each in (Calls, Life) else f"passed.{name}" for name, each in fields(kernel).items()
+    taken = [name if each in (AgentFunctions, Life) else f"passed.{name}" for name, each in fields(kernel).items()
              if name != "return"]
-    entry = eval(f"lambda passed: kernel({', '.join(taken)})", {"kernel": kernel, "life": life, "calls": life.calls})
+    scope = {"kernel": kernel, "life": life, "functions": life.functions}
+    entry = eval(f"lambda passed: kernel({', '.join(taken)})", scope)  # numba has no loop over fields of several types
     result = TYPES[kernel.__annotations__["return"]](View(_passed(kernel), record))
     return numba.njit(result, **options(no_cpython_wrapper=True, no_cfunc_wrapper=True))(entry)
 

@@ -5,8 +5,9 @@ The state has the fields of all of them, and the rules select the current one.
 
 from typing import NamedTuple
 
-from neorl.core.kernel import array, fields, is_tuple, kernel, new_tuple
 from neorl.core.scene import Scene
+from neorl.kernels.annotations import array, fields, is_tuple, new_tuple
+from neorl.kernels.kernel import kernel
 from neorl.worlds import arena, arm, water_maze, waterworld
 from neorl.worlds.arena import Arena, ArenaRules, ArenaState
 from neorl.worlds.arm import Arm, ArmRules, ArmState

@@ -1,4 +1,4 @@
-"""The kernels of random streams, modalities, maps, the Horde, networks of nodes, and the life of an agent.
+"""The agent as kernels see it: random streams, modalities, maps, the Horde, networks of nodes, and a life.
 
-Kernels take flat arrays and scalars (`neorl.core.kernel` has their rules); they compute every number of the book.
+Kernels take flat arrays and scalars (`neorl.kernels.kernel` has their rules); they compute every number of the book.
 """

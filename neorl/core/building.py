@@ -1,16 +1,19 @@
-"""An agent's record and memory, from its choices, which are those of `neorl.agents.compile.chosen`.
+"""An agent's record and memory, from its choices, which are those of `neorl.agents.embodiment.choices_in`.
 
 They have a dict for each node, with its axes, and for each desire: rows of the record's tables. Lists of different
 lengths in them become parts of one array, and the rows tell where each begins. ``engine.js`` does the same in a page.
 """
 
+import math
+
 import numpy as np
 
-from neorl.core.calls import interpret
 from neorl.core.derived import begin_values, derive
-from neorl.core.kernel import fields, kernel, new_tuple
+from neorl.core.layout import Memory, Record, agent_type, rows_for
 from neorl.core.learning import order_of, place_of, values_of
-from neorl.core.record import Memory, Record, agent_type, rows_for
+from neorl.kernels.annotations import fields, length, new_tuple
+from neorl.kernels.execution import interpret
+from neorl.kernels.kernel import kernel
 
 TABLES = ("nodes", "maps", "axes", "desires")
 WITHOUT_VALUES = ("cuts", "points", "goals", "elements", "boundary", "landmark", "frames")
@@ -52,14 +55,31 @@ def laid_out(choices):
         "landmark": joined(float, landmarks).reshape(-1, push.shape[1])})
 
 
+def n_values(agent):
+    """The number of values that an agent learns, by its record; in Python's integers, since it may be beyond int64."""
+    maps = agent["maps"][: agent["n_maps"]]
+    return len(agent["push"]) * sum(map(math.prod, zip(maps["cells"].tolist(), maps["goals"].tolist())))
+
+
+def sizes_of(agent):
+    """The sizes of all that an agent learns and remembers in its `Memory`, by name, from its record."""
+    last, (actions, axes) = agent["maps"][agent["n_maps"] - 1], agent["push"].shape
+    return {"values": n_values(agent), "cells": last["end_cell"], "scratch": actions * last["end_cell"],
+            "tracks": last["end_track"], "traces": last["end_trace"], "trace_weights": 2 * actions * last["end_trace"],
+            "passed": last["end_passed"], "left": agent["contacts"]["trace"], "actions": actions, "axes": axes}
+
+
+def n_bytes(agent):
+    """The bytes that an agent needs for all that it learns and remembers, from its record."""
+    sizes = sizes_of(agent)
+    return sum(np.dtype(dtype).itemsize * math.prod(int(length(dimension, sizes)) for dimension in shape)
+               for name, (dtype, shape) in fields(Memory).items() if name not in WITHOUT_VALUES)
+
+
 def with_values(agent, memory, q=None):
     """The same memory with all that the agent learns, untrained. q: zeros to be used, as many as its values or more."""
-    last, (actions, axes) = agent["maps"][agent["n_maps"] - 1], agent["push"].shape
-    sizes = {"values": last["end_value"], "cells": last["end_cell"], "scratch": actions * last["end_cell"],
-             "tracks": last["end_track"], "traces": last["end_trace"], "trace_weights": 2 * actions * last["end_trace"],
-             "passed": last["end_passed"], "left": agent["contacts"]["trace"], "actions": actions, "axes": axes}
-    known = {name: getattr(memory, name) for name in WITHOUT_VALUES}
-    memory = new_memory(sizes, known if q is None else known | {"q": q[: last["end_value"]]})
+    sizes, known = sizes_of(agent), {name: getattr(memory, name) for name in WITHOUT_VALUES}
+    memory = new_memory(sizes, known if q is None else known | {"q": q[: sizes["values"]]})
     interpret(begin_values, agent, memory)
     return memory
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from neorl.core.choices import Cut, Feature, MapState, Source, Vector
 from neorl.core.geometry import in_range, interval_at
-from neorl.core.kernel import inlined_kernel, kernel
-from neorl.core.record import ENTRIES, Memory, Record
+from neorl.core.layout import ENTRIES, Memory, Record
+from neorl.kernels.kernel import inlined_kernel, kernel
 
 FADED, MOST_PASSED = np.float32(0.01), 500  # the strength below which a place passed is forgotten, and the most of them
 
@@ -77,6 +77,13 @@ def most_passed(retained):
     return count
 
 
+@inlined_kernel
+def intervals_along(axis, resolution):
+    """The number of intervals into which a map cuts an axis."""
+    intervals = axis.intervals if axis.intervals > 0 else resolution
+    return intervals + 1 if axis.cut == Cut.centred and intervals % 2 == 0 else intervals
+
+
 @kernel
 def cut_axes(agent, memory, node, nres):
     """Cut the axes of a node into the intervals of a map."""
@@ -85,26 +92,27 @@ def cut_axes(agent, memory, node, nres):
     for i in range(node.axes):
         axis, cut = agent.axes[node.first_axis + i], memory.cuts[nres.first_cut + i]
         is_direction = axis.feature == Feature.direction and axis.vector != Vector.own
-        intervals = axis.intervals if axis.intervals > 0 else nres.resolution
+        intervals = intervals_along(axis, nres.resolution)
         low, high = axis.low, axis.high
         if is_direction:  # in turns, the first interval centred on 0
             low = -0.5 / intervals
             high = 1.0 + low
         elif axis.cut == Cut.boundaries:  # here the coordinate is the number of the interval
             low, high = 0.0, float(intervals)
-        cut.scale = intervals / (high - low)
-        if axis.cut == Cut.centred and intervals % 2 == 0:  # half an interval more at either end
+        within = float(axis.intervals if axis.intervals > 0 else nres.resolution)
+        cut.scale = within / (high - low)
+        if intervals > within:  # half an interval more at either end
             low -= 0.5 / cut.scale
-            intervals += 1
         cut.low, cut.last = low, intervals - 1.0
         cut.beyond = 0.0 if is_direction or axis.cut == Cut.closed else intervals - 1.0
-        cut.stride = nres.cells
+        stride = nres.cells
+        cut.stride = stride
         nres.cells *= intervals
         if axis.vector == node.follows:
             nres.followed = nres.cells
             if not is_direction:
                 nres.placed = nres.cells
-                nres.contact += int(cut.stride * interval_at(cut, in_range(memory, axis, 0.0)))
+                nres.contact += stride * int(interval_at(cut, in_range(memory, axis, 0.0)))
 
 
 @kernel

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from neorl.core.kernel import kernel
+from neorl.kernels.kernel import kernel
 
 TAU = 2.0 * math.pi
 SQRT_3 = math.sqrt(3.0)

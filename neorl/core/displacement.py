@@ -12,19 +12,19 @@ In `notebooks/companion/one_file.py`, this is `learn_motion` in section 5.
 
 import numpy as np
 
-from neorl.core.called import Own
 from neorl.core.choices import MapState
+from neorl.core.functions import UserFunctions
 from neorl.core.geometry import cell_within, component
-from neorl.core.kernel import inlined_kernel, kernel
+from neorl.core.layout import Memory, Record
 from neorl.core.learning import (SMALLEST, UNBOUNDED, UNIT, ZERO, enter, higher, order_of, rate_events, rule_of,
                                  stepped, sunk, values_of, widen)
-from neorl.core.record import Memory, Record
 from neorl.core.scene import ABSENT, Scene
 from neorl.core.trace import forget_all, join, learn_remembered, trace_of
+from neorl.kernels.kernel import inlined_kernel, kernel
 
 
 @kernel
-def observe_self(agent: Record, memory: Memory, scene: Scene, own: Own, n: int, point: int) -> None:
+def observe_self(agent: Record, memory: Memory, scene: Scene, user: UserFunctions, n: int, point: int) -> None:
     """Follow the agent, or the agent as seen from a thing, and learn in every map whose centre it has left."""
     node = agent.nodes[n]
     starts = node.state == MapState.per_object and (scene.met[point] != 0 or scene.kinds[point] < 0)
@@ -36,12 +36,12 @@ def observe_self(agent: Record, memory: Memory, scene: Scene, own: Own, n: int, 
             start_self(agent, memory, nres, point, centre_cell(scene, node, nres, point))
         elif has_left_centre(agent, memory, nres, point):
             cell = cell_within(agent, memory, node, nres, agent.offset)
-            learn_displacement(agent, memory, own, node, nres, point, cell)
+            learn_displacement(agent, memory, user, node, nres, point, cell)
             enter(memory, t, nres.contact)
 
 
 @kernel
-def begin_self(agent: Record, memory: Memory, scene: Scene, own: Own, n: int, point: int) -> None:
+def begin_self(agent: Record, memory: Memory, scene: Scene, user: UserFunctions, n: int, point: int) -> None:
     """Start the tracks of the agent, or of the agent as seen from a thing, at its present place."""
     node = agent.nodes[n]
     locate_self(agent, memory, scene, node, point)
@@ -77,10 +77,10 @@ def start_self(agent, memory, nres, point, cell):
 
 
 @inlined_kernel
-def learn_displacement(agent, memory, own, node, nres, point, reached):
+def learn_displacement(agent, memory, user, node, nres, point, reached):
     """Learn that the self has reached a cell as seen from the last centre, and centre the map on it."""
     rule, values, trace = rule_of(agent.learning), values_of(agent, memory, nres), trace_of(agent, memory, nres, point)
-    rate_events(agent, memory, own, nres.first_track + point)
+    rate_events(agent, memory, user, nres.first_track + point)
     if agent.learning.bootstrap and reached >= 0:
         learn_all_displacements(memory, values, rule, node, nres, reached, agent.rates)
     count = join_passed(agent, memory, trace, rule, node, nres, point)

@@ -5,7 +5,7 @@ in units of the world's size (per second, for velocity); a direction is in turns
 towards the second. A map cuts each axis into intervals; those that contain the coordinates determine the one active
 cell (`cell_of`). Without a direction, as at rest, the coordinate is NaN and the interval does not change.
 
-A node *follows* one vector (`neorl.core.record.NODE`): the agent's own, or that of each of several points. An
+A node *follows* one vector (`neorl.core.layout.NODE`): the agent's own, or that of each of several points. An
 element of interest is *placed* along the axes of that vector, except that a contact leaves its direction unchanged;
 along the axes of other vectors it is everywhere. Cells are numbered along the axes in this order.
 
@@ -18,9 +18,9 @@ import numpy as np
 
 from neorl.core.choices import Cut, Feature, Vector
 from neorl.core.direction import turn
-from neorl.core.kernel import inlined_kernel, kernel
-from neorl.core.record import OF_AXIS
+from neorl.core.layout import OF_AXIS
 from neorl.core.scene import ABSENT
+from neorl.kernels.kernel import inlined_kernel, kernel
 
 
 @inlined_kernel
@@ -41,7 +41,7 @@ def component(agent, memory, scene, node, vector, point, axis):
 
 
 @inlined_kernel
-def locate(agent, memory, scene, own, node, point, from_offset):
+def locate(agent, memory, scene, user, node, point, from_offset):
     """Write the coordinates of a point of a node into agent.coordinates, NaN where there is no direction.
 
     from_offset: whether agent.offset takes the place of the perceived vector that the node follows.
@@ -58,7 +58,7 @@ def locate(agent, memory, scene, own, node, point, from_offset):
         axis = agent.axes[node.first_axis + i]
         replaced = from_offset and axis.vector == node.follows
         if axis.vector == Vector.own:
-            coordinate = own.feature(axis.along, scene, point)
+            coordinate = user.feature(axis.along, scene, point)
             if coordinate != coordinate:
                 agent.faults[OF_AXIS] = axis.along + 1
         elif axis.feature <= Feature.margin:

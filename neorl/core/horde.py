@@ -11,10 +11,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from neorl import checks
-from neorl.core.calls import execute
+from neorl.common import checks
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.scene import CARDINAL, Actions
+from neorl.kernels.execution import execute
 
 OWN_CELL = ("silent", "counts")  # an element in the agent's own cell
 

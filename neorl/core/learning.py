@@ -19,8 +19,9 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.core.choices import Credit
-from neorl.core.kernel import array, inlined_kernel, kernel
-from neorl.core.record import OF_CREDIT
+from neorl.core.layout import OF_CREDIT
+from neorl.kernels.annotations import array
+from neorl.kernels.kernel import inlined_kernel, kernel
 
 ZERO, UNIT, SMALLEST = np.float32(0.0), np.float32(1.0), np.float32(1e-30)
 UNBOUNDED = np.float32(np.inf)
@@ -66,7 +67,7 @@ def rule_of(learning):
 
 
 @inlined_kernel
-def rate_events(agent, memory, own, t):
+def rate_events(agent, memory, user, t):
     """α_a = ψ_a α of each event in the cell that a track leaves, 1 at most (thesis eq. 4.7; one file: `rates_of`)."""
     learning, steps = agent.learning, 0
     for event in range(agent.rates.shape[0] + 1):
@@ -83,7 +84,7 @@ def rate_events(agent, memory, own, t):
         elif learning.credit == Credit.activity:
             credit = agent.activity[event] if agent.activity[event] >= INACTIVE else ZERO
         elif learning.credit == Credit.own:
-            credit = np.float32(own.credit(count, steps, event == agent.last_event, agent.activity[event]))
+            credit = np.float32(user.credit(count, steps, event == agent.last_event, agent.activity[event]))
             if credit != credit:
                 agent.faults[OF_CREDIT] = 1
             credit = credit if credit > ZERO else ZERO

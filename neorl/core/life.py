@@ -17,22 +17,22 @@ In `notebooks/companion/one_file.py`, this is the loop of `simulate`, `perceive`
 `learn_transition` in section 5. `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
 
-from neorl.core.called import Calls
 from neorl.core.choices import Credit, MapState, UpdateOn, Vector
+from neorl.core.functions import AgentFunctions
 from neorl.core.geometry import cell_within, contact_cell, locate, with_kept_directions
-from neorl.core.kernel import inlined_kernel, kernel
+from neorl.core.layout import Memory, Record
 from neorl.core.learning import (UNIT, ZERO, enter, learn_all_goals, learn_one_goal, order_of, rate_events, rule_of,
                                  values_of)
 from neorl.core.network import choose, learn_worth
-from neorl.core.record import Memory, Record
 from neorl.core.scene import ABSENT, Scene
 from neorl.core.trace import fade, forget_all, join, learn_remembered, trace_of
+from neorl.kernels.kernel import inlined_kernel, kernel
 
 
 @kernel
-def act(agent: Record, memory: Memory, scene: Scene, calls: Calls) -> int:
+def act(agent: Record, memory: Memory, scene: Scene, functions: AgentFunctions) -> int:
     """Choose an action, and record it as an event in the active cell of every track."""
-    action = choose(agent, memory, scene, calls)
+    action = choose(agent, memory, scene, functions)
     for t in range(memory.events.shape[0]):
         memory.events[t, action] += 1
     agent.last_event = action
@@ -45,26 +45,26 @@ def act(agent: Record, memory: Memory, scene: Scene, calls: Calls) -> int:
 
 
 @kernel
-def observe(agent: Record, memory: Memory, scene: Scene, calls: Calls) -> None:
+def observe(agent: Record, memory: Memory, scene: Scene, functions: AgentFunctions) -> None:
     """Perceive the outcome of an action, and learn from it."""
     for n in range(agent.n_nodes):
         node = agent.nodes[n]
         for point in range(node.points):
             if node.learns_contacts:
-                calls.observe_contacts(agent, memory, scene, calls.own, n, point)
+                functions.observe_contacts(agent, memory, scene, functions.user, n, point)
             elif node.state != MapState.object:
-                calls.observe_self(agent, memory, scene, calls.own, n, point)
+                functions.observe_self(agent, memory, scene, functions.user, n, point)
             else:
-                perceive(agent, memory, scene, calls.own, node, point)
+                perceive(agent, memory, scene, functions.user, node, point)
     learn_worth(agent, scene)
 
 
 @inlined_kernel
-def perceive(agent, memory, scene, own, node, point):
+def perceive(agent, memory, scene, user, node, point):
     """Find the active cell of a point in every map of a node, and learn if it has changed or an update is due."""
     things = node.follows == Vector.objects
     met = things and scene.met[point] != 0
-    _, all_have_directions = locate(agent, memory, scene, own, node, point, False)
+    _, all_have_directions = locate(agent, memory, scene, user, node, point, False)
     for m in range(node.first_map, node.end_map):
         nres = agent.maps[m]
         t = nres.first_track + point
@@ -77,21 +77,21 @@ def perceive(agent, memory, scene, own, node, point):
         arrives = met and cell_tm1 >= 0
         cell_t = contact_cell(nres, cell_tm1) if arrives else cell
         if (arrives or not ends) and (cell_t != cell_tm1 or agent.learning.update_on == UpdateOn.step):
-            learn_transition(agent, memory, own, nres, point, cell_t)
+            learn_transition(agent, memory, user, nres, point, cell_t)
             enter(memory, t, cell_t)
         if ends:
             start_track(agent, memory, nres, point, cell)
 
 
 @inlined_kernel
-def learn_transition(agent, memory, own, nres, point, cell_t):
+def learn_transition(agent, memory, user, nres, point, cell_t):
     """Learn from a track's change of cell s⁻ → s⁺ (one file: `learn_transition`)."""
     learning, rates, t = agent.learning, agent.rates, nres.first_track + point
     track = memory.tracks[t]
     cell_tm1 = track.cell
     rule, values, order = rule_of(learning), values_of(agent, memory, nres), order_of(agent, nres)
     trace = trace_of(agent, memory, nres, point)
-    rate_events(agent, memory, own, t)
+    rate_events(agent, memory, user, t)
     if learning.bootstrap:
         learn_all_goals(values, rule, cell_tm1, cell_t, rates)
     if learning.memory_retained > ZERO:
@@ -116,11 +116,11 @@ def start_track(agent, memory, nres, point, cell):
 
 
 @kernel
-def begin(agent: Record, memory: Memory, scene: Scene, calls: Calls) -> None:
+def begin(agent: Record, memory: Memory, scene: Scene, functions: AgentFunctions) -> None:
     """Start all tracks in their present cells, without a history, and clear the desires."""
     for n in range(agent.n_nodes):
         for point in range(agent.nodes[n].points):
-            begin_point(agent, memory, scene, calls, n, point)
+            begin_point(agent, memory, scene, functions, n, point)
     for event in range(agent.activity.shape[0]):
         agent.activity[event] = ZERO
     for e in range(agent.n_desires):
@@ -131,16 +131,16 @@ def begin(agent: Record, memory: Memory, scene: Scene, calls: Calls) -> None:
 
 
 @inlined_kernel
-def begin_point(agent, memory, scene, calls, n, point):
+def begin_point(agent, memory, scene, functions, n, point):
     """Start the tracks of a point at its present place."""
     node = agent.nodes[n]
     if node.learns_contacts:
-        calls.begin_contacts(agent, memory, scene, calls.own, n, point)
+        functions.begin_contacts(agent, memory, scene, functions.user, n, point)
         return
     if node.state != MapState.object:
-        calls.begin_self(agent, memory, scene, calls.own, n, point)
+        functions.begin_self(agent, memory, scene, functions.user, n, point)
         return
-    locate(agent, memory, scene, calls.own, node, point, False)
+    locate(agent, memory, scene, functions.user, node, point, False)
     absent = node.follows == Vector.objects and scene.kinds[point] < 0
     for m in range(node.first_map, node.end_map):
         nres = agent.maps[m]

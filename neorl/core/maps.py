@@ -9,16 +9,20 @@ first interval centred on east.
 
 import math
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from neorl import checks
-from neorl.core.calls import execute
+from neorl.common import checks
+from neorl.core.coordinates import as_turns, choices_of, space_of
+from neorl.core.derived import intervals_along
 from neorl.core.geometry import cell_of, in_range
-from neorl.core.kernel import array, kernel
-from neorl.core.modality import MOST_CELLS, PLACE_CELL, Modality, as_turns, space_of
-from neorl.core.record import Memory, Record
+from neorl.core.layout import Memory, Record
+from neorl.core.modality import MOST_CELLS, PLACE_CELL, Modality
+from neorl.kernels.annotations import array
+from neorl.kernels.execution import execute, interpret
+from neorl.kernels.kernel import kernel
 
 
 @dataclass(frozen=True)
@@ -43,8 +47,8 @@ class NresMap(checks.Final):
     @property
     def intervals(self) -> tuple[int, ...]:
         """The number of intervals along each axis: a tuple."""
-        counts = [axis.intervals or self.resolution for axis in self.modality.axes]
-        return tuple(count + (axis.centred and count % 2 == 0) for count, axis in zip(counts, self.modality.axes))
+        (node,) = choices_of([self.modality])
+        return tuple(interpret(intervals_along, SimpleNamespace(**axis), self.resolution) for axis in node["axes"])
 
     @property
     def cells(self) -> int:
@@ -59,7 +63,8 @@ class NresMap(checks.Final):
         """
         points = checks.points("points", points, self.modality.names)
         cells = np.zeros(points.shape[:-1], np.int64)
-        execute(encode, *space_of(self.modality, self.resolution), as_turns(self.modality, points), cells.reshape(-1))
+        agent, memory = space_of(self.modality, self.resolution)
+        execute(encode, agent, memory, as_turns(self.modality, points), cells.reshape(-1))
         return cells
 
 

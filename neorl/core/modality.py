@@ -19,25 +19,17 @@ Axes of several vectors make *conjunctive* cells, such as those of place and hea
 HEAD_DIRECTION_CELL.axes`.
 """
 
-import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from neorl import checks
-from neorl.checks import OneOf, Within
-from neorl.core.building import new_agent
-from neorl.core.called import Own, features
-from neorl.core.calls import execute, in_table
-from neorl.core.choices import Cut, Feature, MapState, Vector
-from neorl.core.direction import TAU
-from neorl.core.geometry import locate
-from neorl.core.kernel import array, check_kernel, full_name, kernel, new_tuple
-from neorl.core.record import Memory, Record
-from neorl.core.scene import MOST_AXES, Scene, checked_scene
+from neorl.common import checks
+from neorl.common.checks import OneOf, Within
+from neorl.core.choices import Feature
+from neorl.core.scene import MOST_AXES
+from neorl.kernels.kernel import check_kernel
 
 VECTORS = ("position", "velocity", "objects", "boundaries", "landmarks")
 SEVERAL = ("objects", "boundaries", "landmarks")  # there may be several of each; a modality follows one kind at most
@@ -218,45 +210,6 @@ class Modality(checks.Final):
         """The user-defined kernels among its axes: a tuple."""
         return tuple(axis.of for axis in self.axes if callable(axis.of))
 
-    def coordinates(self, scene: Scene, size: float) -> NDArray[np.float64]:
-        """The coordinates of the followed points in a `Scene`: float64 (points, axes), directions in radians.
-
-        size: of the world, its unit of length. Raises ValueError for a scene that does not fit.
-        """
-        scene, size = checked_scene(scene), checks.positive("size", size)
-        n_axes = len(scene.position)
-        self.check_axes(n_axes)
-        points = {"objects": len(scene.things), "boundaries": 2 * n_axes, "landmarks": len(self.landmarks)}
-        coordinates = np.zeros((points.get(self.follows, 1), len(self.axes)))
-        self._locate(size, scene, False, np.zeros((len(coordinates), n_axes)), coordinates)
-        return as_radians(self, coordinates)
-
-    def tune(self, vectors: ArrayLike) -> NDArray[np.float64]:
-        """The coordinates of vectors (…, axes of the world) for these cells: float64 (…, axes).
-
-        Raises ValueError if a vector is not finite or has too few or too many components, or for conjunctive cells.
-        """
-        vectors = checks.doubles("vectors", vectors)
-        if any(axis.of != self.follows for axis in self.axes):
-            raise ValueError(f"vectors must be of one kind, but {self.name}s have axes of several")
-        if vectors.ndim == 0 or not self.least_axes <= vectors.shape[-1] <= MOST_AXES:
-            raise ValueError(f"vectors must have the shape (…, {self.least_axes}) or more, of {MOST_AXES} axes at "
-                             f"most, but has {vectors.shape}")
-        self.check_axes(vectors.shape[-1])
-        n_axes = vectors.shape[-1]
-        coordinates = np.zeros((*vectors.shape[:-1], len(self.axes)))
-        scene = new_tuple(Scene, {"axes": n_axes, "things": 0}, {})
-        self._locate(1.0, scene, True, vectors.reshape(-1, n_axes), coordinates.reshape(-1, len(self.axes)))
-        return as_radians(self, coordinates)
-
-    def _locate(self, size, scene, from_vectors, vectors, coordinates):
-        """Write the coordinates of all points into `coordinates`, from their vectors or from the scene."""
-        uncut = replace(self, axes=[replace(axis, boundaries=()) for axis in self.axes])
-        agent, memory = space_of(uncut, 1, len(scene.position), size)
-        agent = agent.copy()  # which other threads write to, too
-        execute(locate_all, agent, memory, scene, Own(features(*self.functions)), from_vectors, vectors, coordinates)
-        check_faults(agent["faults"], self.functions)
-
     def check_axes(self, n_axes: int) -> None:
         """Raise ValueError unless these cells are defined in a world of `n_axes` axes."""
         if self.least_axes > n_axes:
@@ -272,70 +225,6 @@ class Modality(checks.Final):
         """The least number of axes of a world in which these cells are defined."""
         least = [2 if axis.feature == "direction" else axis.along + 1 for axis in self.axes if not callable(axis.of)]
         return max([1, *least, *(len(each) for each in self.landmarks)])
-
-
-def check_faults(faults, axes, credit=None):
-    """Raise ValueError, which names the kernel, for a user-defined axis or credit rule that has returned NaN."""
-    for fault, kind, kernels in zip(faults, ("an axis", "the credit"), (axes, (credit,))):
-        if fault:
-            raise ValueError(f"the kernel {full_name(kernels[fault - 1])} of {kind} must return numbers, but has "
-                             "returned NaN: return a number in every case, also where there is nothing to measure")
-
-
-def as_radians(modality, coordinates):
-    """The kernels' coordinates (…, axes), with directions in radians; a missing direction counts as east."""
-    scale = np.where([axis.is_direction for axis in modality.axes], TAU, 1.0)
-    return np.nan_to_num(coordinates) * scale
-
-
-def as_turns(modality, points):
-    """Points (…, axes) for the kernels: float64 (points, axes), directions in turns."""
-    directions = [axis.is_direction for axis in modality.axes]
-    points = np.array(points, float).reshape(-1, len(directions))
-    points[:, directions] = points[:, directions] / TAU % 1.0
-    return points
-
-
-@functools.lru_cache(maxsize=64)
-def space_of(modality, resolution, n_axes=None, size=1.0):
-    """The record of an agent of a single map, and its memory as `execute` passes it on; kept for loops of points."""
-    n_axes, (node,) = n_axes or modality.least_axes, choices_of([modality])
-    agent, memory = new_agent({
-        "nodes": [node | {"resolutions": [resolution]}], "order": [0], "desires": [], "size": size,
-        "push": np.zeros((1, n_axes)), "frames": np.zeros((0, 1), np.int64)}, 0)
-    return agent, in_table(memory)
-
-
-def choices_of(modalities):
-    """The choices of all nodes that depend on their modalities, a list of dicts.
-
-    The others among them are those of `Node()`: a map never ends, and its state is the object.
-    """
-    own = [axis for modality in modalities for axis in modality.axes if callable(axis.of)]
-    return [{"follows": Vector[modality.follows], "mirrored": modality.mirrored, "state": MapState.object,
-             "ends": False, "reach": 0.0, "landmarks": modality.landmarks,
-             "axes": [_choices_of_axis(axis, own) for axis in modality.axes]} for modality in modalities]
-
-
-def _choices_of_axis(axis, own):
-    """The choices of an axis. own: the axes with user-defined kernels."""
-    cut = (Cut.boundaries if axis.boundaries else Cut.closed if axis.closed and not axis.is_direction else
-           Cut.centred if axis.centred else Cut.equal)
-    vector, along = (Vector.own, own.index(axis)) if callable(axis.of) else (Vector[axis.of], axis.along)
-    return {"vector": vector, "feature": Feature[axis.feature], "along": along, "cut": cut,
-            "intervals": axis.intervals or 0, "low": axis.low, "high": axis.high, "boundaries": axis.boundaries[1:-1]}
-
-
-@kernel
-def locate_all(agent: Record, memory: Memory, scene: Scene, own: Own, from_vectors: bool, vectors: array(
-        "float64", "points", "axes"), coordinates: array("float64", "points", "coordinates")) -> None:
-    """Write the coordinates of points of the only node into `coordinates`, see `neorl.core.geometry.locate`."""
-    for point in range(coordinates.shape[0]):
-        for axis in range(vectors.shape[1]):
-            agent.offset[axis] = vectors[point, axis]
-        locate(agent, memory, scene, own, agent.nodes[0], point, from_vectors)
-        for i in range(coordinates.shape[1]):
-            coordinates[point, i] = agent.coordinates[i]
 
 
 # O'Keefe and Dostrovsky 1971; Solstad et al. 2008; Høydal et al. 2019 and, in its Cartesian emulation, paper B,

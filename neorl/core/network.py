@@ -21,31 +21,31 @@ import numpy as np
 
 from neorl.core.choices import MapState, Source, Vector
 from neorl.core.geometry import cell_within, contact_cell, interval_at, locate
-from neorl.core.kernel import inlined_kernel
 from neorl.core.learning import order_of, place_of
 from neorl.core.policy import greedy
 from neorl.core.stream import randint, uniform
+from neorl.kernels.kernel import inlined_kernel
 
 
 @inlined_kernel
-def choose(agent, memory, scene, calls):
+def choose(agent, memory, scene, functions):
     """a = argmax Q(s, ·), ties broken at random, or what the user's policy chooses (one file: `choose`)."""
     policy, value, actions = agent.policy, agent.action_value, agent.action_value.shape[0]
     if policy.exploration > 0.0 and uniform(agent.stream) < policy.exploration:
         return randint(agent.stream, actions)
-    evaluate(agent, memory, scene, calls)
+    evaluate(agent, memory, scene, functions)
     if policy.indifferent_is_no_op:
         wanted = 0
         for action in range(actions):
             wanted += value[action] != 0.0
         if wanted == 0:
             return actions
-    action = greedy(value, agent.stream) if policy.is_greedy else calls.own.choose(agent)
+    action = greedy(value, agent.stream) if policy.is_greedy else functions.user.choose(agent)
     return min(max(action, 0), policy.last)  # a user-defined policy may return any number
 
 
 @inlined_kernel
-def evaluate(agent, memory, scene, calls):
+def evaluate(agent, memory, scene, functions):
     """Q(s, a) = Σ gain Σ Q_e(s, a) over nodes in order and their desires e (eq. 4.3), into agent.action_value."""
     for action in range(agent.action_value.shape[0]):
         agent.action_value[action] = 0.0
@@ -59,11 +59,11 @@ def evaluate(agent, memory, scene, calls):
                 if agent.desires[agent.inputs[i]].source == Source.node:
                     project(agent, memory, agent.desires[agent.inputs[i]])
         if node.learns_contacts:
-            calls.evaluate_contacts(agent, memory, scene, calls.own, n)
+            functions.evaluate_contacts(agent, memory, scene, functions.user, n)
         for i in range(node.first_input, node.end_input):
             desire = agent.desires[agent.inputs[i]]
             if not node.learns_contacts:
-                evaluate_desire(agent, memory, scene, calls.own, node, desire)
+                evaluate_desire(agent, memory, scene, functions.user, node, desire)
             for action in range(agent.action_value.shape[0]):
                 agent.action_value[action] += node.gain * desire.q[action]
 
@@ -89,54 +89,70 @@ def project(agent, memory, desire):
 
 
 @inlined_kernel
-def evaluate_desire(agent, memory, scene, own, node, desire):
+def evaluate_desire(agent, memory, scene, user, node, desire):
     """Q_e(s, a) = Σ w_i Q_i(s, a) over the elements of a desire (eq. 4.4), and their total valence Σ w_i."""
-    source, valence = desire.source, desire.worth
+    is_of_kind, valence = desire.source == Source.kind, desire.worth
     for action in range(agent.action_value.shape[0]):
         desire.q[action] = 0.0
-    if source == Source.node:
+    if desire.source == Source.node:
         valence = desire.target_valence
-    desire.total_valence = 0.0 if source == Source.kind else valence
-    if source == Source.point:
-        for m in range(node.first_map, node.end_map):
-            nres, goal = agent.maps[m], memory.goals[desire.first_goal + int(m - node.first_map)]
-            for t in range(nres.first_track, nres.end_track):
-                if memory.tracks[t].cell >= 0:
-                    add_value(agent, memory, node, nres, memory.tracks[t].cell, goal, valence, desire.q)
+    desire.total_valence = 0.0 if is_of_kind else valence
+    if desire.source == Source.point:
+        add_point(agent, memory, node, desire, valence)
         return
     agent.evaluation += 1
-    of_place = node.follows == Vector.position
-    sees_things = source == Source.kind and node.follows == Vector.objects and node.state == MapState.object
-    for thing in range(scene.kinds.shape[0] if source == Source.kind else 1):
-        if source == Source.kind:
-            if scene.kinds[thing] != desire.kind:
-                continue
-            desire.total_valence += valence
-        if sees_things:
-            for m in range(node.first_map, node.end_map):
-                nres = agent.maps[m]
-                cell = memory.tracks[nres.first_track + thing].cell
-                if counts(agent, memory, nres, cell):
-                    add_contact(agent, memory, node, nres, cell, valence, desire.q)
-            continue
-        for axis in range(agent.here.shape[0]):
-            here = agent.here[axis]
-            if source == Source.node:
-                offset = desire.target_at[axis]
-            elif source == Source.place:
-                offset = desire.place[axis] - here
+    has_tracks = is_of_kind and node.follows == Vector.objects and node.state == MapState.object
+    for thing in range(scene.kinds.shape[0] if is_of_kind else 1):  # one call of each kernel, since it is inlined here
+        if not is_of_kind or scene.kinds[thing] == desire.kind:
+            if is_of_kind:
+                desire.total_valence += valence
+            if has_tracks:
+                add_tracked(agent, memory, node, thing, valence, desire.q)
             else:
-                offset = scene.things[thing, axis] / agent.size - here
-            agent.offset[axis] = offset + here if of_place else offset
-        add_element(agent, memory, scene, own, node, valence, desire.q)
+                face(agent, scene, node, desire, thing)
+                add_element(agent, memory, scene, user, node, valence, desire.q)
 
 
 @inlined_kernel
-def add_element(agent, memory, scene, own, node, valence, q):
+def add_point(agent, memory, node, desire, valence):
+    """Add the values of a point, whose cell is known, in every map of a node and at each of its tracks."""
+    for m in range(node.first_map, node.end_map):
+        nres, goal = agent.maps[m], memory.goals[desire.first_goal + int(m - node.first_map)]
+        for t in range(nres.first_track, nres.end_track):
+            if memory.tracks[t].cell >= 0:
+                add_value(agent, memory, node, nres, memory.tracks[t].cell, goal, valence, desire.q)
+
+
+@inlined_kernel
+def add_tracked(agent, memory, node, thing, valence, q):
+    """Add the values of the contact with a thing that has a track in every map of a node."""
+    for m in range(node.first_map, node.end_map):
+        nres = agent.maps[m]
+        cell = memory.tracks[nres.first_track + thing].cell
+        if counts(agent, memory, nres, cell):
+            add_contact(agent, memory, node, nres, cell, valence, q)
+
+
+@inlined_kernel
+def face(agent, scene, node, desire, thing):
+    """Write the vector of an element, as the node follows it, into agent.offset: of a landing, a place, or a thing."""
+    for axis in range(agent.here.shape[0]):
+        here = agent.here[axis]
+        if desire.source == Source.node:
+            offset = desire.target_at[axis]
+        elif desire.source == Source.place:
+            offset = desire.place[axis] - here
+        else:
+            offset = scene.things[thing, axis] / agent.size - here
+        agent.offset[axis] = offset + here if node.follows == Vector.position else offset
+
+
+@inlined_kernel
+def add_element(agent, memory, scene, user, node, valence, q):
     """Add the values of an element in every map of a node; agent.offset is its vector, as followed by the node."""
     has_direction, coordinates = True, agent.offset
     if not node.is_cartesian:
-        has_direction, _ = locate(agent, memory, scene, own, node, 0, True)
+        has_direction, _ = locate(agent, memory, scene, user, node, 0, True)
         coordinates = agent.coordinates
     of_agent = node.follows == Vector.position or node.follows == Vector.velocity
     if of_agent and not has_direction:

@@ -11,9 +11,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from neorl import checks
-from neorl.core.kernel import inlined_kernel, kernel, kernel_maker
+from neorl.common import checks
 from neorl.core.stream import randint, uniform
+from neorl.kernels.kernel import inlined_kernel, kernel, kernel_maker
 
 LN_2 = math.log(2.0)
 LN_2_HIGH, LN_2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # in two parts, so that few bits are lost

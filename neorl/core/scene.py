@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl import checks
+from neorl.common import checks
 
-from neorl.core.kernel import array, tabled
+from neorl.kernels.annotations import array, tabled
 
 MOST_AXES, MOST_ACTIONS = 8, 1_024  # of a world; kernels are compiled for their numbers
 ABSENT = -1  # instead of the number of a kind

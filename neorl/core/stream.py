@@ -7,8 +7,8 @@ A stream is four unsigned 64-bit integers, seeded as by NumPy's `SeedSequence`. 
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl import checks
-from neorl.core.kernel import kernel
+from neorl.common import checks
+from neorl.kernels.kernel import kernel
 
 ONE, U3, U11, U24, U40 = (np.uint64(value) for value in (1, 3, 11, 24, 40))
 TO_UNIT = 2.0**-53

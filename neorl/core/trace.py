@@ -13,8 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.kernel import array, inlined_kernel, kernel
 from neorl.core.learning import SMALLEST, UNIT, ZERO, place_of, sunk, widen
+from neorl.kernels.annotations import array
+from neorl.kernels.kernel import inlined_kernel, kernel
 
 FORGOTTEN = np.float32(1e-4)  # the strength below which a cell is no longer remembered
 

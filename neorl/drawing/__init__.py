@@ -12,7 +12,7 @@ A figure of one panel is drawn into ``ax``, or into a new figure if that is None
 - style: `use_style`, `STYLE` and the colours.
 """
 
-from neorl.extras import require
+from neorl.common.extras import require
 
 require("matplotlib", extra="plot")
 

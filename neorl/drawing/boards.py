@@ -11,7 +11,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Rectangle
 
-from neorl import checks
+from neorl.common import checks
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, axes_or_new, width_of_figures
 from neorl.worlds import waterworld
 from neorl.worlds.arena import Arena

@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.transforms import offset_copy
 from numpy.typing import ArrayLike
 
-from neorl import checks
+from neorl.common import checks
 from neorl.drawing.style import INK, axes_or_new, by_name, looks, name_ends, numbers
-from neorl.statistics import Estimate, binned_rate, mean_band, tolerance_band
 from neorl.experiments.result import Result
+from neorl.statistics import Estimate, binned_rate, mean_band, tolerance_band
 
 POINTS = 400  # per curve; more would not be visible
 APART = 3  # points between intervals at one x

@@ -16,8 +16,8 @@ from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch
 from matplotlib.path import Path
 from matplotlib.textpath import TextPath
 
-from neorl import checks
 from neorl.agents.agent import Agent, Desire, Place
+from neorl.common import checks
 from neorl.drawing.boards import desire_colour
 from neorl.drawing.style import AGENT, INK, TEXT, axes_or_new, width_of_figures
 

@@ -14,7 +14,7 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.colors import is_color_like, to_hex, to_rgb
 
-from neorl import checks
+from neorl.common import checks
 
 INK, TEXT = "#808080", "#6e6e6e"  # lines, letters
 AGENT, GREEN, RED = "#3175b9", "#0e825f", "#ba5323"

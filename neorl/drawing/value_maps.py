@@ -13,9 +13,10 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Rectangle, Wedge
 from numpy.typing import ArrayLike
 
-from neorl import checks
 from neorl.agents.agent import Place
 from neorl.agents.individual import Individual
+from neorl.common import checks
+from neorl.core.coordinates import tune
 from neorl.core.direction import TAU
 from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
@@ -140,7 +141,7 @@ def _desired(run, index):
     agent, scene = run.agent, run._scene
     node = [node for node in agent.nodes for _ in node.resolutions][index]
     if node.modality.follows in SEVERAL:
-        return [node.modality.tune((0.0, 0.0))], [1.0]
+        return [tune(node.modality, (0.0, 0.0))], [1.0]
     here, found = scene.position / run.world.size, []
     start = 0.0 if node.modality.follows == "position" else here
     for desire, state in zip(agent.desires, run.state.desires):
@@ -149,11 +150,11 @@ def _desired(run, index):
         if isinstance(desire.source, tuple):
             found.append((desire.source, state.worth))
         elif agent.comes_from_node(desire):
-            found.append((node.modality.tune(here + state.target_at - start), state.target_valence))
+            found.append((tune(node.modality, here + state.target_at - start), state.target_valence))
         else:
             places = [desire.source.coordinates] if isinstance(desire.source, Place) else (
                 scene.things[scene.kinds == run.world.kinds.index(desire.source)] / run.world.size)
-            found += [(node.modality.tune(place - start), state.worth) for place in np.asarray(places)]
+            found += [(tune(node.modality, place - start), state.worth) for place in np.asarray(places)]
     if not found:
         raise ValueError(f"goals must be given, since the node {node.name!r} of this map desires nothing now")
     return map(list, zip(*found))

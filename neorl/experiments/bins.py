@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from neorl import checks
+from neorl.common import checks
 
 BIN_SECONDS = 0.2
 

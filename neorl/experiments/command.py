@@ -4,11 +4,11 @@ import argparse
 import os
 import sys
 
-from neorl import files
-from neorl.core.identity import can_cache
+from neorl.common import files
 from neorl.experiments import store
 from neorl.experiments.condition import PARTS, Condition
 from neorl.experiments.simulation import label, simulate
+from neorl.kernels.identity import can_cache
 
 
 def main(arguments=None):
@@ -56,8 +56,8 @@ def run_file(path, save=None):
     print(f"{label(condition.agent)} in {type(condition.world).__name__}, {condition.steps:,} steps, "
           f"{condition.runs} run{'s' * (condition.runs != 1)}, seed {condition.seed}")
     print(f"  reward per second: {rate.mean():.3f}{spread}")
-    if save or can_cache(*PARTS) and condition.path.exists():
-        print(f"  kept in {save or condition.path}")
+    if save or can_cache(*PARTS):
+        print(f"  kept in {save or files.cache_folder()}")
 
 
 def list_cache():

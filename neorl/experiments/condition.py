@@ -1,21 +1,20 @@
 """A condition: everything that determines a set of runs, and the key under which their result is kept.
 
 The key covers the agent, steps, runs, seed, all that runs take from the world, the source of every module that takes
-part in a run, and every kernel of the user's own with all that it looks up (`neorl.core.identity`).
+part in a run, and every kernel of the user's own with all that it looks up (`neorl.kernels.identity`).
 """
 
 import hashlib
 from dataclasses import dataclass, fields
 
-from neorl import checks, files
 from neorl.agents.agent import Agent
+from neorl.common import checks
 from neorl.description import Described
-from neorl.core.identity import digest_of_source, identity
+from neorl.kernels.identity import digest_of_source, identity
 from neorl.worlds.world import World
 
 # Everything that takes part in a run.
-PARTS = ("checks", "container", "extras", "files", "warn", "core", "description", "worlds", "beyond", "agents",
-         "experiments")
+PARTS = ("common", "kernels", "core", "description", "worlds", "beyond", "agents", "experiments")
 
 
 @dataclass(frozen=True)
@@ -48,11 +47,6 @@ class Condition(Described):
     def key(self):
         """A digest of the condition and the source that it runs with: 64 hexadecimal digits."""
         return hashlib.sha256(f"{identity(self)} {source_digest()}".encode()).hexdigest()
-
-    @property
-    def path(self):
-        """The file of its result. Raises OSError where there is no cache folder."""
-        return files.cache_folder() / "conditions" / self.key
 
 
 def _checked_changes(changes, steps):

@@ -14,13 +14,13 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl import checks
+from neorl.common import checks
+from neorl.common.extras import require
+from neorl.common.files import read_arrays, write_arrays
+from neorl.common.warn import warn
 from neorl.description import described, restored, warn_of_main
 from neorl.experiments.bins import bin_steps, n_bins
 from neorl.experiments.condition import Condition
-from neorl.extras import require
-from neorl.files import read_arrays, write_arrays
-from neorl.warn import warn
 from neorl.worlds.former import changes, code_of, stand_in
 
 

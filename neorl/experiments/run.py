@@ -13,17 +13,17 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl import checks
 from neorl.agents.agent import Agent
-from neorl.agents.compile import life_of
+from neorl.agents.embodiment import life_of
 from neorl.agents.individual import Individual
 from neorl.agents.memory import kept_apart, on_lines_of_its_own
+from neorl.common import checks
 from neorl.core import life
-from neorl.core.calls import execute, in_table
-from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
 from neorl.experiments.bins import bin_steps, checked_bins
-from neorl.worlds.rollout import recorded_in, rollout_in
+from neorl.kernels.annotations import arrays, new_tuple
+from neorl.kernels.execution import execute, in_table
+from neorl.worlds.rollout import Log, rollout_in
 from neorl.worlds.world import World, check_outcome, checked_rules
 
 SLICE = 10_000  # steps between two checks for an interruption
@@ -79,7 +79,7 @@ class Run(Individual):
         self._live(agent, world, new_stream(sequence.spawn(1)[0]), after)
         self._progress = 0
         self._bind()
-        execute(life.begin, self._record, self._memory, self._scene, life_of(agent).calls)
+        execute(life.begin, self._record, self._memory, self._scene, life_of(agent).functions)
 
     @classmethod
     def _of(cls, agent, world):
@@ -140,16 +140,14 @@ class Run(Individual):
         bins = -(-last // bin_length)
         rewards = checked_bins("rewards", rewards, np.float32, bins)
         hits = checked_bins("hits", hits, np.int16, bins, len(self.world.kinds))
-        paid, due = 0.0, self.step + every
+        log, due = self._log(bin_length, rewards, hits), self.step + every
         while self.step < last:
-            paid = self._take(rollout_in(self.world.dynamics), min(last, due, self.step + SLICE), paid, bin_length,
-                              rewards, hits)
-            self._check(paid)
+            self._take(log, min(last, due, self.step + SLICE))
             if self.step == due or self.step == last:
                 due += every
                 if each is not None:
                     each(self)
-        return paid
+        return float(log.paid[0])
 
     def record(self, steps: int, every: int = 1) -> Trajectory:
         """Take `steps` more steps, the same as `advance` takes, and return their `Trajectory`.
@@ -166,31 +164,31 @@ class Run(Individual):
         first, every = self.step, checks.integer("every", every, 1, MOST_STEPS)
         last = first + checks.integer("steps", steps, 0, MOST_STEPS - first)
         at = np.append(np.arange(first, last, every), last)
-        frames, kinds = len(at) - 1, len(self.world.kinds)
-        positions = np.zeros((frames + 1, self.world.actions.axes))
-        positions[0] = self._scene.position
-        actions, rewards, hits = np.zeros(frames, np.int64), np.zeros(frames), np.zeros((frames, kinds), np.int64)
-        paid, episodes = np.zeros(2), [(np.zeros(0, np.int64), np.zeros(0))]
-        kernel = recorded_in(self.world.dynamics)
+        unread = np.zeros(1, np.float32), np.zeros((1, len(self.world.kinds)), np.int16)
+        log = self._log(last + 1, *unread, len(at) - 1, every)
+        start, episodes = self._scene.position[np.newaxis].copy(), [(log.ends, log.returns)]
         while self.step < last:
             until = min(last, self.step + SLICE)
-            ends, returns = np.zeros(until - self.step, np.int64), np.zeros(until - self.step)
-            ended = self._take(kernel, until, first, every, paid, positions[1:], actions, rewards, hits, ends, returns)
-            self._check(paid[0])
-            episodes.append((ends[:ended], returns[:ended]))
-        return Trajectory(at, positions, actions, rewards, hits, *map(np.concatenate, zip(*episodes)))
+            log = log._replace(ends=np.zeros(until - self.step, np.int64), returns=np.zeros(until - self.step))
+            self._take(log, until)
+            episodes.append((log.ends[: log.clock[2]], log.returns[: log.clock[2]]))
+        return Trajectory(at, np.concatenate([start, log.positions]), log.actions, log.frame_rewards, log.frame_hits,
+                          *map(np.concatenate, zip(*episodes)))
 
-    def _take(self, kernel, last, *into):
-        """Take the steps up to `last` by a kernel; returns what it returns."""
-        clock = on_lines_of_its_own(np.array([self.step, 0]))
+    def _log(self, bin_length, rewards, hits, frames=0, frame_steps=1):
+        """A `Log` from the present step on."""
+        sizes = {"recorded": frames, "episodes": 0, "axes": self.world.actions.axes, "kinds": len(self.world.kinds)}
+        clock, paid = np.array([self.step, 0, 0]), np.zeros(2)
+        return new_tuple(Log, sizes, {
+            "clock": on_lines_of_its_own(clock), "paid": on_lines_of_its_own(paid), "bin_steps": bin_length,
+            "rewards": rewards, "hits": hits, "first_step": self.step, "frame_steps": frame_steps})
+
+    def _take(self, log, last):
+        """Take the steps up to `last`. Raises ValueError for a kernel of the user's that has broken a rule in them."""
+        dynamics, log.clock[2] = self.world.dynamics, 0
         try:
-            return execute(kernel, *self._life, self._world_state, checked_rules(self.world), clock, last,
-                           *into)
+            execute(rollout_in(dynamics), *self._life, self._world_state, checked_rules(self.world), log, last)
         finally:
-            self._progress = int(clock[0])  # also if interrupted: Python handles that once the kernel returns
-            self._last_kernel = self.world.dynamics.reset if clock[1] else self.world.dynamics.step
-
-    def _check(self, paid):
-        """Raise ValueError for a kernel of the user's that has broken a rule in the last steps."""
-        check_outcome(self.world, self._last_kernel, self._world_state, paid)
+            self._progress = int(log.clock[0])  # also if interrupted: Python handles that once the kernel returns
+        check_outcome(self.world, dynamics.reset if log.clock[1] else dynamics.step, self._world_state, log.paid[0])
         self._check_faults()

@@ -23,19 +23,19 @@ from concurrent.futures import BrokenExecutor, CancelledError, Executor, ThreadP
 from itertools import islice
 from typing import NamedTuple
 
-from neorl import checks
 from neorl.agents.agent import Agent
-from neorl.agents.compile import n_values
+from neorl.agents.embodiment import embodied
 from neorl.agents.memory import fitting_runs, usable_bytes
-from neorl.container import cores
-from neorl.core.identity import can_cache
-from neorl.core.kernel import announcing
+from neorl.common import checks
+from neorl.common.container import cores
+from neorl.common.warn import users_frame, work_for
+from neorl.core.building import n_values
 from neorl.experiments.bins import n_bins, new_bins
 from neorl.experiments.condition import PARTS, Condition
 from neorl.experiments.result import Result
 from neorl.experiments.run import SLICE, Run
 from neorl.experiments.store import Keeper
-from neorl.warn import users_frame, work_for
+from neorl.kernels.identity import can_cache
 from neorl.worlds.world import World
 
 TASK_STEPS = 100_000  # they take a typical agent a tenth of a second, and a task's overhead is a millisecond
@@ -106,13 +106,13 @@ def sweep(conditions: Iterable[Condition], executor: Executor | None = None,
     keepers = {name: Keeper(condition, cache) for name, condition in dict(zip(names, conditions)).items()}
     missing = [keeper for keeper in keepers.values() if keeper.missing]
     # The largest come first, so that later runs can reuse their memory.
-    missing.sort(key=lambda keeper: -n_values(keeper.condition.agent, keeper.condition.world))
+    missing.sort(key=lambda keeper: -n_values(embodied(keeper.condition.agent, keeper.condition.world)[0]))
     waiting = [task for keeper in missing for task in _tasks(keeper)]
     total = sum(task.steps for task in waiting)
     name = label(missing[0].condition.agent) if len(missing) == 1 else "sweep"
     with progress_bar(total, name, progress) as bar:
         try:
-            errors = _run(waiting, executor, threads, cache, bar, name) if waiting else []
+            errors = _run(waiting, executor, threads, cache, bar) if waiting else []
         finally:
             for keeper in missing:
                 keeper.write_runs()
@@ -149,7 +149,7 @@ def _tasks(keeper):
     return [Task(keeper, keeper.missing[first : first + count]) for first in range(0, len(keeper.missing), count)]
 
 
-def _run(tasks, executor, threads, cache, bar, name):
+def _run(tasks, executor, threads, cache, bar):
     """Compute tasks, and return the failed ones, [(task, exception), ...]."""
     if executor is not None:
         return _collect(tasks, lambda condition, runs: executor.submit(
@@ -157,7 +157,7 @@ def _run(tasks, executor, threads, cache, bar, name):
     conditions = {id(task.keeper): task.keeper.condition for task in tasks}.values()
     lives = [(agent, each.world) for each in conditions
              for agent in (each.agent, *(later for _, later in each.changes))]
-    usable = usable_threads(*max(lives, key=lambda life: n_values(*life)))
+    usable = usable_threads(*max(lives, key=lambda life: n_values(embodied(*life)[0])))
     pool = ThreadPoolExecutor(usable if threads is None else min(usable, threads),
                               initializer=work_for, initargs=(users_frame(),))
     stop, room = threading.Event(), threading.local()
@@ -168,9 +168,8 @@ def _run(tasks, executor, threads, cache, bar, name):
         bar.update(lived)
 
     try:
-        with announcing(lambda compiles: bar.set_description(f"{name}, compiling" if compiles else name)):
-            return _collect(tasks, lambda condition, runs: pool.submit(
-                _live, condition, runs, condition.key if cache else None, each_slice, room), cache)
+        return _collect(tasks, lambda condition, runs: pool.submit(
+            _live, condition, runs, condition.key if cache else None, each_slice, room), cache)
     except BaseException:
         stop.set()
         raise
@@ -243,7 +242,7 @@ def _live(condition, runs, key, each_slice=lambda lived: None, room=None):
     _check_key(condition, key)
     rewards, hits = new_bins(condition.world, len(runs), condition.steps)
     run = vars(room).pop("run", None) if room else None
-    if run and n_values(run.agent, run.world) < n_values(condition.agent, condition.world):
+    if run and not run._has_room_for(embodied(condition.agent, condition.world)[0]):
         run = None  # frees its memory before another run allocates
     for k, *into in zip(runs, rewards, hits):
         run = live(condition, k, *into, each_slice, run)
@@ -277,7 +276,7 @@ def live(condition, k, rewards, hits, each_slice=lambda lived: None, after=None)
 
 def usable_threads(agent, world):
     """The number of runs of an agent in a world to run in parallel: one per core, within nine tenths of free memory."""
-    return min(fitting_runs(agent, world), cores())
+    return min(fitting_runs(embodied(agent, world)[0]), cores())
 
 
 def progress_bar(steps, name, shown):

@@ -14,7 +14,7 @@ otherwise; one in an arena is a trial. `play` runs a neoRL agent in any Gymnasiu
 The package needs gymnasium, matplotlib to draw an environment, and pygame to show it in a window: the extra ``gym``.
 """
 
-from neorl.extras import require
+from neorl.common.extras import require
 from neorl.gym.environment import WorldEnv
 from neorl.gym.playing import Played, play
 from neorl.gym.vector import VectorWorldEnv

@@ -6,9 +6,10 @@ The state of the batch is the `State` of the world with an additional first dime
 import functools
 from typing import NamedTuple
 
-from neorl.checks import LARGEST
-from neorl.core.kernel import array, fields, inlined, inlined_kernel, is_tuple, kernel, kernel_maker
+from neorl.common.checks import LARGEST
 from neorl.gym.observation import observe
+from neorl.kernels.annotations import array, fields, is_tuple
+from neorl.kernels.kernel import inlined, inlined_kernel, kernel, kernel_maker
 from neorl.worlds.rollout import keeps_rules
 
 

@@ -27,8 +27,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl import checks
-from neorl.extras import require
+from neorl.common import checks
+from neorl.common.extras import require
 from neorl.gym.vector import VectorWorldEnv
 from neorl.worlds.world import World
 

@@ -14,8 +14,8 @@ to it.
 
 import numpy as np
 
-from neorl.core.kernel import inlined_kernel, kernel
-from neorl.extras import require
+from neorl.common.extras import require
+from neorl.kernels.kernel import inlined_kernel, kernel
 
 gymnasium = require("gymnasium", extra="gym")
 

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl import checks
 from neorl.agents.agent import Agent
 from neorl.agents.learner import Learner
+from neorl.common import checks
+from neorl.common.extras import require
 from neorl.core.scene import Actions, Scene
-from neorl.extras import require
 
 gymnasium = require("gymnasium", extra="gym")
 

@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from neorl import checks
 from neorl.agents.memory import read_only
-from neorl.core.calls import execute
-from neorl.core.kernel import arrays, mapped, new_tuple
+from neorl.common import checks
+from neorl.common.extras import require
+from neorl.common.warn import warn
 from neorl.core.stream import new_stream
 from neorl.description import restored
-from neorl.extras import require
 from neorl.gym.batch import Slots, Task, batch_step
 from neorl.gym.observation import observation_space
-from neorl.warn import warn
+from neorl.kernels.annotations import arrays, mapped, new_tuple
+from neorl.kernels.execution import execute
 from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World, check_outcome, checked_rules
 

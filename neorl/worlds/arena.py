@@ -19,11 +19,12 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from neorl import checks
-from neorl.checks import LARGEST, AtLeastOne, OneOf, Within
-from neorl.core.kernel import array, function_of, inlined_kernel, kernel
+from neorl.common import checks
+from neorl.common.checks import LARGEST, AtLeastOne, OneOf, Within
 from neorl.core.scene import CARDINAL, Scene
 from neorl.core.stream import randint
+from neorl.kernels.annotations import array
+from neorl.kernels.kernel import function_of, inlined_kernel, kernel
 from neorl.worlds import walls
 from neorl.worlds.waterworld import DRAG
 from neorl.worlds.world import Dynamics, World, squared_distance

@@ -19,12 +19,13 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from neorl import checks
-from neorl.checks import AtLeastOne, Within
+from neorl.common import checks
+from neorl.common.checks import AtLeastOne, Within
 from neorl.core.direction import circle
-from neorl.core.kernel import array, kernel
 from neorl.core.scene import Actions, Scene
 from neorl.core.stream import uniform
+from neorl.kernels.annotations import array
+from neorl.kernels.kernel import kernel
 from neorl.worlds.world import Dynamics, World, squared_distance
 
 PUSH = 0.05  # turns per second

@@ -2,8 +2,8 @@
 
 A file names kernels and worlds of the user's (`neorl.description`), while the code of a name may change, or be that of
 another program whose ``__main__`` has the same name. So a file also holds digests of each part's code, with all that it
-looks up (`neorl.core.identity`). A run goes on with the same code alone. A result is read in any case: a former kernel
-or a `FormerWorld` takes the place of each part that has changed or cannot be found.
+looks up (`neorl.kernels.identity`). A run goes on with the same code alone. A result is read in any case: a former
+kernel or a `FormerWorld` takes the place of each part that has changed or cannot be found.
 """
 
 import hashlib
@@ -14,10 +14,11 @@ from dataclasses import dataclass
 from sys import version_info
 from typing import Any
 
-from neorl.core.identity import identity
-from neorl.core.kernel import Kernel, kernel_maker, new_tuple
 from neorl.core.scene import Actions
 from neorl.description import MAIN, described, main_program, restored, users_parts
+from neorl.kernels.annotations import new_tuple
+from neorl.kernels.identity import identity
+from neorl.kernels.kernel import Kernel, kernel_maker
 from neorl.worlds.world import World
 
 GONE = "{} must have the code that a saved result was computed with to be run, but has not: use the present code's"

@@ -1,20 +1,21 @@
 """Kernels for viewers: probe the values of an agent anywhere, and add a second player to WaterWorld."""
 
 from neorl.core import life
-from neorl.core.called import Calls
 from neorl.core.choices import MapState, Vector
+from neorl.core.functions import AgentFunctions
 from neorl.core.geometry import cell_within, locate
-from neorl.core.kernel import array, kernel
+from neorl.core.layout import Memory, Record
 from neorl.core.network import evaluate
-from neorl.core.record import Memory, Record
 from neorl.core.scene import Scene
+from neorl.kernels.annotations import array
+from neorl.kernels.kernel import kernel
 from neorl.worlds.waterworld import Rules, WaterWorldState, move_agent, reset, touch_creeps
 
 HALF_SECOND = 0.5  # a velocity is shown at the place that the agent would reach in this time
 
 
 @kernel
-def survey(agent: Record, double: Record, memory: Memory, there: Scene, calls: Calls, side: int,
+def survey(agent: Record, double: Record, memory: Memory, there: Scene, functions: AgentFunctions, side: int,
            values: array("float64", "tiles", "actions")) -> None:
     """The value of each action if the agent were in the middle of each of side × side tiles, row by row.
 
@@ -23,19 +24,20 @@ def survey(agent: Record, double: Record, memory: Memory, there: Scene, calls: C
     for tile in range(side * side):
         there.position[0] = (tile % side + 0.5) / side * agent.size
         there.position[1] = (tile // side + 0.5) / side * agent.size
-        life.begin(double, memory, there, calls)
+        life.begin(double, memory, there, functions)
         for e in range(agent.n_desires):  # recursion uses the agent's own of the previous step
             double.desires[e].total_valence = agent.desires[e].total_valence
             double.desires[e].worth = agent.desires[e].worth
             for action in range(agent.action_value.shape[0]):
                 double.desires[e].q[action] = agent.desires[e].q[action]
-        evaluate(double, memory, there, calls)
+        evaluate(double, memory, there, functions)
         for action in range(agent.action_value.shape[0]):
             values[tile, action] = double.action_value[action]
 
 
 @kernel
-def cell_seen_at(agent: Record, memory: Memory, scene: Scene, calls: Calls, m: int, x: float, y: float) -> int:
+def cell_seen_at(agent: Record, memory: Memory, scene: Scene, functions: AgentFunctions, m: int, x: float,
+                 y: float) -> int:
     """The cell of a map for a place in the world; if the map represents things, for a thing there.
 
     agent: a record that may be written to. Along the axes of other vectors, the cell is that of what the agent
@@ -48,13 +50,13 @@ def cell_seen_at(agent: Record, memory: Memory, scene: Scene, calls: Calls, m: i
             offset[axis] -= scene.position[axis] / agent.size
             if node.follows == Vector.velocity:
                 offset[axis] /= HALF_SECOND
-    locate(agent, memory, scene, calls.own, node, 0, True)
+    locate(agent, memory, scene, functions.user, node, 0, True)
     return cell_within(agent, memory, node, agent.maps[m], agent.coordinates)
 
 
 @kernel
-def step_second(agent: Record, memory: Memory, scene: Scene, calls: Calls, board: WaterWorldState, rules: Rules,
-                second: Scene, action: int) -> float:
+def step_second(agent: Record, memory: Memory, scene: Scene, functions: AgentFunctions, board: WaterWorldState,
+                rules: Rules, second: Scene, action: int) -> float:
     """Take an action of a second agent on the same board, and return its reward.
 
     scene: of the board. second: the same, with the second agent's own position and velocity. The first agent does not
@@ -67,9 +69,9 @@ def step_second(agent: Record, memory: Memory, scene: Scene, calls: Calls, board
         if agent.nodes[n].follows == Vector.objects and agent.nodes[n].state != MapState.self:
             for creep in range(second.met.shape[0]):
                 if second.met[creep] != 0:
-                    life.begin_point(agent, memory, scene, calls, n, creep)
+                    life.begin_point(agent, memory, scene, functions, n, creep)
     if done:
         reset(board, rules)
         if agent.notices_resets:
-            life.begin(agent, memory, scene, calls)
+            life.begin(agent, memory, scene, functions)
     return reward

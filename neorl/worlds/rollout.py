@@ -1,25 +1,44 @@
 """The rollout of an agent in a world: choose, act, advance the world, perceive and learn, step after step.
 
-In `notebooks/companion/one_file.py`, this is `simulate`. There are two: `rollout` adds up rewards and contacts, and
-`recorded` writes down where the agent was as well. Both end early after a step or a reset that broke a rule of worlds;
-clock[1] is then 1 for a reset.
+In `notebooks/companion/one_file.py`, this is `simulate`. A rollout ends early after a step or a reset that broke a rule
+of worlds; its `Log` says so.
 
 The kernels of the world are compiled into the rollout, so a user-defined world runs as fast as those of the package.
-The agent's kernels are called (`neorl.core.called`), so they are compiled once for all worlds.
+The agent's kernels are called (`neorl.core.functions`), so they are compiled once for all worlds.
 """
 
 import functools
+from typing import NamedTuple
 
 import numpy as np
 
-from neorl.checks import LARGEST
-from neorl.core.called import Life
-from neorl.core.kernel import array, fields, inlined, inlined_kernel, kernel
-from neorl.core.record import Memory, Record
+from neorl.common.checks import LARGEST
+from neorl.core.functions import Life
+from neorl.core.layout import Memory, Record
 from neorl.core.scene import ABSENT, Scene
+from neorl.kernels.annotations import array, fields, tabled
+from neorl.kernels.kernel import inlined, inlined_kernel, kernel
 
 MOST_HITS = 32_767  # in a bin, the maximum of its type
-MOST_RECORDED = 2**63 - 1  # in a frame, likewise
+
+
+@tabled
+class Log(NamedTuple):
+    """What a rollout writes down: rewards and hits in bins, and in a recording also in frames, with all episodes."""
+
+    clock: array("int64", 3)  # steps taken; 1 after a reset that broke a rule of worlds; episodes ended
+    paid: array("float64", 2)  # the reward so far, in all and in this episode
+    bin_steps: int
+    rewards: array("float32", "bins")
+    hits: array("int16", "bins", "kinds")  # things met of each kind, up to `MOST_HITS`
+    first_step: int  # of the first frame
+    frame_steps: int
+    positions: array("float64", "recorded", "axes")  # at the end of a frame
+    actions: array("int64", "recorded")  # the last one of a frame, or no frames without a recording
+    frame_rewards: array("float64", "recorded")
+    frame_hits: array("int64", "recorded", "kinds")
+    ends: array("int64", "episodes")  # the step after an episode's last
+    returns: array("float64", "episodes")
 
 
 @inlined_kernel
@@ -38,22 +57,29 @@ def is_known(scene, thing, n_kinds):
 
 
 @inlined_kernel
-def observed(agent, memory, scene, life, reward, hits, interval, most):
-    """Perceive the outcome of an action, learn from it, and add the things met to hits[interval], up to `most` each.
-
-    Returns whether the scene keeps the rules; counting ends at the first thing that does not.
-    """
-    agent.reward = reward
-    life.observe(agent, memory, scene, life.calls)
-    if not is_placed(scene):  # at once, since a later step may put the agent back
-        return False
+def count_hits(scene, log, now):
+    """Add the things met to the bin and the frame of a step; returns whether the kinds of all keep the rules."""
     for thing in range(scene.met.shape[0]):
         met = scene.met[thing]
-        if not is_known(scene, thing, hits.shape[1]):
+        if not is_known(scene, thing, log.hits.shape[1]):
             return False
-        if met != 0 and hits[interval, met - 1] < most:
-            hits[interval, met - 1] += 1
+        if met != 0:
+            interval = now // log.bin_steps
+            if log.hits[interval, met - 1] < MOST_HITS:
+                log.hits[interval, met - 1] += 1
+            if log.actions.shape[0] > 0:
+                log.frame_hits[(now - log.first_step) // log.frame_steps, met - 1] += 1
     return True
+
+
+@inlined_kernel
+def record_frame(scene, log, now, action, reward):
+    """Write a step into its frame."""
+    frame = (now - log.first_step) // log.frame_steps
+    log.actions[frame] = action
+    log.frame_rewards[frame] += reward
+    for axis in range(log.positions.shape[1]):
+        log.positions[frame, axis] = scene.position[axis]
 
 
 @inlined_kernel
@@ -71,7 +97,7 @@ def begun_again(agent, memory, scene, life, n_kinds):
     if not keeps_rules(scene, n_kinds):
         return False
     if agent.notices_resets:
-        life.begin(agent, memory, scene, life.calls)
+        life.begin(agent, memory, scene, life.functions)
     return True
 
 
@@ -82,79 +108,35 @@ def rollout_in(dynamics):
     world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
 
     @kernel
-    def rollout(agent: Record, memory: Memory, scene: Scene, life: Life,
-                world_state: world_type, rules: rules_type, clock: array("int64", 2), last_step: int, total: float,
-                bin_steps: int, rewards: array("float32", "bins"), hits: array("int16", "bins", "kinds")) -> float:
-        """Take the steps clock[0] … last_step − 1, adding rewards and contacts to the bins of `rewards` and `hits`.
-
-        total: the reward so far; the new total is returned. hits: things met of each kind, up to `MOST_HITS`.
-        Stops early after a step that broke a rule of worlds; a reward that did is returned in place of the total.
-        """
-        for now in range(clock[0], last_step):
-            action = life.act(agent, memory, scene, life.calls)
+    def rollout(agent: Record, memory: Memory, scene: Scene, life: Life, world_state: world_type, rules: rules_type,
+                log: Log, last_step: int) -> None:
+        """Take the steps clock[0] … last_step − 1. A reward that broke a rule takes the place of paid[0]."""
+        for now in range(log.clock[0], last_step):
+            log.clock[0] = now + 1
+            action = life.act(agent, memory, scene, life.functions)
             reward, done = step(world_state, rules, action)
             if not abs(reward) <= LARGEST:
-                clock[0] = now + 1
-                return reward
-            total += reward
-            interval = now // bin_steps
-            rewards[interval] += np.float32(reward)
-            if not observed(agent, memory, scene, life, reward, hits, interval, MOST_HITS):
-                clock[0] = now + 1
-                return total
+                log.paid[0] = reward
+                return
+            log.paid[0] += reward
+            log.paid[1] += reward
+            log.rewards[now // log.bin_steps] += np.float32(reward)
+            if log.actions.shape[0] > 0:
+                record_frame(scene, log, now, action, reward)
+            agent.reward = reward
+            life.observe(agent, memory, scene, life.functions)
+            if not is_placed(scene):  # at once, since a later step may put the agent back
+                return
+            if not count_hits(scene, log, now):
+                return
             if done:
+                if log.clock[2] < log.ends.shape[0]:
+                    log.ends[log.clock[2]], log.returns[log.clock[2]] = now + 1, log.paid[1]
+                log.clock[2] += 1
+                log.paid[1] = 0.0
                 reset(world_state, rules)
-                if not begun_again(agent, memory, scene, life, hits.shape[1]):
-                    clock[0], clock[1] = now + 1, 1
-                    return total
-        clock[0] = last_step
-        return total
+                if not begun_again(agent, memory, scene, life, log.hits.shape[1]):
+                    log.clock[1] = 1
+                    return
 
     return rollout
-
-
-@functools.cache
-def recorded_in(dynamics):
-    """The kernel `recorded`, which takes the same steps as that of `rollout_in`, and records them."""
-    reset, step = dynamics.reset, inlined(dynamics.step)
-    world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
-
-    @kernel
-    def recorded(agent: Record, memory: Memory, scene: Scene, life: Life,
-                 world_state: world_type, rules: rules_type, clock: array("int64", 2), last_step: int,
-                 first_step: int, every: int, paid: array("float64", 2), positions: array("float64", "frames", "axes"),
-                 actions: array("int64", "frames"), rewards: array("float64", "frames"),
-                 hits: array("int64", "frames", "kinds"), ends: array("int64", "episodes"),
-                 returns: array("float64", "episodes")) -> int:
-        """Take the steps clock[0] … last_step − 1; frames have `every` steps each, from first_step on.
-
-        paid: the reward so far, in all and in this episode. Returns the number of episodes that have ended.
-        Stops early as `rollout` does, with a reward that broke a rule in paid[0].
-        """
-        episodes = 0
-        for now in range(clock[0], last_step):
-            frame = (now - first_step) // every
-            actions[frame] = life.act(agent, memory, scene, life.calls)
-            reward, done = step(world_state, rules, actions[frame])
-            if not abs(reward) <= LARGEST:
-                clock[0], paid[0] = now + 1, reward
-                return episodes
-            rewards[frame] += reward
-            paid[0] += reward
-            paid[1] += reward
-            for axis in range(positions.shape[1]):
-                positions[frame, axis] = scene.position[axis]
-            if not observed(agent, memory, scene, life, reward, hits, frame, MOST_RECORDED):
-                clock[0] = now + 1
-                return episodes
-            if done:
-                ends[episodes], returns[episodes], paid[1] = now + 1, paid[1], 0.0
-                episodes += 1
-                reset(world_state, rules)
-                if not begun_again(agent, memory, scene, life, hits.shape[1]):
-                    clock[0], clock[1] = now + 1, 1
-                    return episodes
-        clock[0] = last_step
-        return episodes
-
-    return recorded

@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl import checks
-from neorl.core.kernel import kernel, kernel_maker
+from neorl.common import checks
+from neorl.kernels.kernel import kernel, kernel_maker
 
 
 def checked(name: str, walls: Sequence[Sequence[float]], low: float = -checks.LARGEST,

@@ -22,11 +22,12 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from neorl import checks
-from neorl.checks import AtLeastOne, Within
-from neorl.core.kernel import array, kernel
+from neorl.common import checks
+from neorl.common.checks import AtLeastOne, Within
 from neorl.core.scene import ABSENT, CARDINAL, Scene
 from neorl.core.stream import randint
+from neorl.kernels.annotations import array
+from neorl.kernels.kernel import kernel
 from neorl.worlds.arena import STARTS
 from neorl.worlds.world import Dynamics, World, squared_distance
 

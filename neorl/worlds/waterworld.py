@@ -20,12 +20,13 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from neorl import checks
-from neorl.checks import AtLeastOne, OneOf, Within
+from neorl.common import checks
+from neorl.common.checks import AtLeastOne, OneOf, Within
 from neorl.core.choices import Action
-from neorl.core.kernel import array, inlined_kernel, kernel
 from neorl.core.scene import CARDINAL, Scene
 from neorl.core.stream import randint, uniform
+from neorl.kernels.annotations import array
+from neorl.kernels.kernel import inlined_kernel, kernel
 from neorl.worlds.world import Dynamics, World
 
 GREEN, RED = range(2)

@@ -4,13 +4,13 @@ A world is one file, for which `neorl` has everything: ``from neorl import CARDI
 kernel, randint, uniform, walls``. It is a frozen dataclass, whose fields users choose, with a `State`, rules, and two
 kernels:
 
-1. ``State``, a named tuple of arrays (`neorl.core.kernel.array`), holds everything that changes. It has a field
+1. ``State``, a named tuple of arrays (`neorl.kernels.annotations.array`), holds everything that changes. It has a field
    ``scene``, the `neorl.core.scene.Scene` that agents perceive, and a field ``stream``, uint64 (4,), from which random
    numbers are drawn (`neorl.uniform`, `neorl.randint`).
 2. ``rules``, a named tuple of numbers and arrays, holds everything that stays constant, as the kernels take it.
 3. ``reset(state, rules)`` starts an episode; ``step(state, rules, action)`` takes a step, and returns the reward and
    whether the episode is over. Both have annotated arguments. For each thing, a step sets ``scene.met`` to 0, or to 1 +
-   the number of its kind when it was met. Both keep to the rules of kernels (`neorl.core.kernel`).
+   the number of its kind when it was met. Both keep to the rules of kernels (`neorl.kernels.kernel`).
 4. ``kinds`` names the kinds of its things, the one that agents want by default first; ``actions`` are its `Actions`,
    whose numbers ``step`` takes. ``size`` is its unit of length, such as its width; ``fps`` is its number of steps per
    second; ``things`` is its number of things.
@@ -29,12 +29,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl import checks
-from neorl.core.calls import execute
-from neorl.core.kernel import Kernel, check_kernel, fields, full_name, function_of, is_tuple, kernel, length, new_tuple
+from neorl.common import checks
 from neorl.core.scene import Actions, Scene
 from neorl.core.stream import new_stream
 from neorl.description import Described
+from neorl.kernels.annotations import fields, is_tuple, length, new_tuple
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import Kernel, check_kernel, full_name, function_of, kernel
 
 STREAM = ("uint64", (4,))  # the type and the shape of a stream
 

@@ -7,7 +7,8 @@ import pytest
 
 from neorl import (CALIBRATED, GREEDY, Agent, Desire, Node, NresMap, Place, Policy, Run, WaterWorld, brownian,
                    multimodal, network_d, object_vector_cells, place_cells)
-from neorl.agents.compile import compiled, n_values
+from neorl.agents.embodiment import embodied
+from neorl.core.building import n_values
 from neorl.core.modality import (CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, PLACE_CELL,
                                  SPEED_CELL, cartesian)
 
@@ -50,7 +51,7 @@ def test_a_network_that_cannot_be_evaluated_is_refused(desires, message):
      "the world of landmark-vector cells must have 3 axes or more, but has 2")])
 def test_an_agent_and_a_world_that_do_not_go_together_are_refused_when_they_meet(node, desires, message):
     agent = Agent((node,), desires)
-    for meet in (compiled, Run):
+    for meet in (embodied, Run):
         with pytest.raises(ValueError, match=message):
             meet(agent, WaterWorld())
     with pytest.raises(ValueError, match=message):
@@ -86,6 +87,6 @@ def test_a_node_is_evaluated_after_those_that_it_takes_desires_from():
 
 
 def test_n_values_counts_four_actions_for_each_pair_of_cells():
-    assert n_values(place_cells([3, 7, 23]), WaterWorld()) == 4 * (3**4 + 7**4 + 23**4)
-    assert n_values(Agent((HD, SPEED)), WaterWorld()) == 4 * (4**2 + 3**2)
+    assert n_values(embodied(place_cells([3, 7, 23]), WaterWorld())[0]) == 4 * (3**4 + 7**4 + 23**4)
+    assert n_values(embodied(Agent((HD, SPEED)), WaterWorld())[0]) == 4 * (4**2 + 3**2)
     assert Agent((PC, OVC)).maps == (NresMap(2), NresMap(3), NresMap(3, CARTESIAN_OBJECT_VECTOR_CELL))

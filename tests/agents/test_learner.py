@@ -13,9 +13,10 @@ from saved_files import rewrite
 
 from neorl import (CARDINAL, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld,
                    brownian, drawing, multimodal, network_d, object_vector_cells, place_cells, softmax)
-from neorl.core.calls import execute
-from neorl.core.kernel import arrays, jit_is_off, mapped
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
+from neorl.kernels.annotations import arrays, mapped
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import jit_is_off
 
 TANK = WaterWorld(width=100, n_creeps=2, win_reward=5.0)  # small, so that episodes end often
 AGENTS = {

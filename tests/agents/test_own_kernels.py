@@ -12,6 +12,7 @@ from subprograms import printed
 
 from neorl import (CALIBRATED, Agent, Axis, Desire, Learner, Modality, Node, Place, Policy, Run, Scene, WaterWorld,
                    kernel, multimodal, place_cells)
+from neorl.core.coordinates import sense
 from neorl.core.stream import randint
 
 WORLD = WaterWorld(n_creeps=4, win_reward=5.0)
@@ -120,7 +121,7 @@ def check_that_kernels_of_one_modality_are_distinguished_from_those_of_another()
     run = Run(Agent((Node("one", west, [5]), Node("other", east, [5])), policy=Policy(1.0)), WORLD, seed=0)
     for _ in range(100):
         run.advance(7)
-        one, other = (nres_map.encode(nres_map.modality.coordinates(run.world_state.scene, WORLD.size))[0]
+        one, other = (nres_map.encode(sense(nres_map.modality, run.world_state.scene, WORLD.size))[0]
                       for nres_map in run.agent.maps)
         assert run.memory.tracks.cell.tolist() == [one, other]
         assert (one % 5, one // 5) == (other // 2, other % 2)
@@ -187,7 +188,7 @@ def errors_after_nan():
     for name, (agent, _) in CALLS.items():
         run, learner = Run(agent, WORLD), Learner(agent, 1, ("green", "red"), size=250.0)
         found[name] = [error_of(lambda: run.advance(2_000)), error_of(lambda: walk_east(learner))]
-    found["coordinates"] = error_of(lambda: SIDE.nodes[0].modality.coordinates(Scene((200.0, 0.0)), 250.0))
+    found["coordinates"] = error_of(lambda: sense(SIDE.nodes[0].modality, Scene((200.0, 0.0)), 250.0))
     return found
 
 

@@ -7,8 +7,8 @@ import sys
 from html import unescape
 from pathlib import Path
 
-import docstrings
-import launch
+from extensions import docstrings
+from extensions import launch
 import nbformat
 import pytest
 
@@ -19,9 +19,9 @@ PUBLIC = sorted(".".join(path.relative_to(ROOT / "neorl").with_suffix("").parts)
 
 # Whose pages have what the tests look for: types, defaults, fields, properties, and names of other modules.
 MODULES = [f"neorl.{name}" for name in (
-    "agents.agent", "agents.individual", "agents.learner", "agents.rules", "core.choices", "core.kernel", "core.maps",
+    "agents.agent", "agents.individual", "agents.learner", "agents.rules", "core.choices", "core.maps",
     "core.modality", "core.scene", "experiments.condition", "experiments.result", "experiments.run",
-    "experiments.simulation", "worlds", "worlds.world", "worlds.arena", "worlds.arm")] + [
+    "experiments.simulation", "kernels.kernel", "worlds", "worlds.world", "worlds.arena", "worlds.arm")] + [
         "companion.other_spaces.trials", "companion.study.sensitivity"]
 
 
@@ -29,7 +29,7 @@ def make_book(folder, url="", modules=("companion.shared.grid",)):
     """Build a book of two pages with our settings; returns the folder of its HTML."""
     chapters = folder / "book" / "chapters"
     chapters.mkdir(parents=True)
-    for name in ("launch.py", "docstrings.py", "terms.py", "typeset.py", "references.bib", "templates", "vendor"):
+    for name in ("extensions", "references.bib", "templates", "vendor"):
         (folder / "book" / name).symlink_to(ROOT / "book" / name)
     shutil.copy(ROOT / "_config.yml", folder)
     (folder / "pyproject.toml").write_text(f'[project.urls]\nRepository = "{url}"' if url else "[project]")
@@ -134,7 +134,7 @@ def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(reference)
     assert ">lengths<" in of_arm and "#companion.other_spaces.trials.lengths" not in of_arm
     of_axis = reference.split('id="neorl.core.modality.Axis"')[1].split("</dl>")[0]
     assert "#neorl.core.maps.NresMap.intervals" not in of_axis
-    assert 'href="#neorl.core.kernel.kernel" title' in of_axis  # neorl.kernel
+    assert 'href="#neorl.kernels.kernel.kernel" title' in of_axis  # neorl.kernel
     of_individual = reference.split('id="neorl.agents.individual.Individual"')[1].split("</dl>")[0]
     assert "#neorl.agents.learner.Learner" in of_individual  # which its module does not import
     assert 'href="#neorl.experiments.run.Run"' in of_individual

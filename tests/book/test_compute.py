@@ -2,12 +2,12 @@
 
 import base64
 
-import compute
-import excerpts
+from computing import compute
+from computing import excerpts
 import nbformat
 import pytest
-import record
-import tables
+from computing import record
+from writing import tables
 
 from companion.thesis.statements import STATEMENTS
 

@@ -5,11 +5,11 @@ import json
 import shutil
 from pathlib import Path
 
-import excerpts
+from computing import excerpts
 import nbformat
 import pytest
-from cells import LABEL, of_page
-from excerpts import without_ground
+from computing.cells import LABEL, of_page
+from computing.excerpts import without_ground
 from matplotlib import pyplot as plt
 
 from neorl.drawing import STYLE
@@ -75,7 +75,7 @@ def test_a_named_cell_shows_one_widget(tmp_path, models):
 
 def test_a_saved_widget_runs_on_any_page(tmp_path, open_page):
     excerpts.save_widgets(page_of_widgets(("first", ["one"])), tmp_path)
-    shutil.copy(Path(excerpts.__file__).parent / "vendor" / "widgets.js", tmp_path)
+    shutil.copy(Path(excerpts.__file__).parents[1] / "vendor" / "widgets.js", tmp_path)
     head = '<!doctype html><link rel="icon" href="data:,"><script defer src="widgets.js"></script><body>'
     (tmp_path / "page.html").write_text(f"{head}{(tmp_path / 'first.html').read_text()}<p>The end.</p>")
     page = open_page(tmp_path, "page.html", over="file")

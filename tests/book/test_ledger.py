@@ -5,15 +5,15 @@ import re
 import tomllib
 from dataclasses import replace
 
-import answer
-import curves
-import ledger
-import levels
+from writing import answer
+from writing import curves
+from writing import ledger
+from writing import levels
 import numpy as np
 import pytest
-import readme
-import rules
-from record import RECORD as RECORDED
+from writing import readme
+from writing import rules
+from computing.record import RECORD as RECORDED
 from companion.page import report
 from companion.thesis.priors import WITHIN
 from companion.study import sensitivity

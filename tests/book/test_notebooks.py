@@ -4,13 +4,13 @@ import ast
 import re
 from contextlib import nullcontext
 
-import compute
+from computing import compute
 import nbformat
 import pytest
-from cells import LABEL, caption_of, tags
+from computing.cells import LABEL, caption_of, tags
 from page_cells import HIDDEN
 from page_cells import NOTEBOOKS as FOLDER
-from programs import figure_of
+from computing.programs import figure_of
 
 from companion import page as toolkit
 from companion.page import beginning

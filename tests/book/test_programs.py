@@ -5,9 +5,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import cells
+from computing import cells
 import nbformat
-import programs
+from computing import programs
 import pytest
 
 ROOT = Path(__file__).parents[2]

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import pytest
-import readme
+from writing import readme
 
 import neorl
-from record import RECORD, of_book
+from computing.record import RECORD, of_book
 
 ROOT = Path(__file__).parents[2]
 README, PACKAGE = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", "book/api.md"))

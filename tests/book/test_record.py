@@ -3,7 +3,7 @@
 import json
 
 import pytest
-import record
+from computing import record
 from hypothesis import given
 from hypothesis import strategies as st
 from companion.page import report
@@ -129,8 +129,8 @@ def test_a_group_that_asks_for_more_runs_decides_and_brownian_motion_has_its_own
 
 
 def test_a_work_tree_with_changes_is_refused(made):
-    with pytest.raises(SystemExit, match="the work tree must be clean, .*\n M neorl/checks.py"):
-        made(" M neorl/checks.py")
+    with pytest.raises(SystemExit, match="the work tree must be clean, .*\n M neorl/common/checks.py"):
+        made(" M neorl/common/checks.py")
     assert not record.RECORD.exists()
 
 

@@ -8,10 +8,10 @@ import re
 import sys
 
 import pytest
-from cells import of_page
+from computing.cells import of_page
 from nbformat.v4 import new_code_cell
 from page_cells import computed_below, suggested
-from programs import SAVE, program
+from computing.programs import SAVE, program
 from test_notebooks import NOTEBOOKS
 
 SMALL = {"runs": 1, "steps": 3_000}

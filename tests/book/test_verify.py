@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import edited
 import pytest
-import verify
+from computing import verify
 
 from neorl import Condition, WaterWorld, multimodal, place_cells, simulate
 from neorl.experiments import store
@@ -53,9 +53,10 @@ def test_runs_equal_to_the_cached_ones_pass(kept, verified):
 def test_a_run_that_differs_from_the_cached_one_is_named(kept, verified, name):
     values = getattr(kept[1], name).copy()
     values[1, 7] += 1
-    store.save(replace(kept[1], **{name: values}))
+    changed = replace(kept[1], **{name: values})
+    store.save_runs(KEPT[1], dict(enumerate(zip(changed.rewards, changed.hits))))
     printed, ended = verified("--sample", "5", "--seed", "2")
-    assert f"run 1 of {KEPT[1]}, kept in {KEPT[1].path}: 1 of 40 bins differ, the first from 1.4 s on" in printed
+    assert f"run 1 of {KEPT[1]}, {KEPT[1].key}: 1 of 40 bins differ, the first from 1.4 s on" in printed
     assert "1 of 5 runs are not as kept; make verify SAMPLE=5 SEED=2" in ended
 
 

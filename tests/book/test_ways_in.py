@@ -20,7 +20,7 @@ from nbformat.v4 import new_code_cell, new_notebook, new_output
 from traitlets.config import Config
 
 from neorl import WaterWorld, place_cells, simulate
-from neorl.files import cache_folder
+from neorl.common.files import cache_folder
 
 ROOT = Path(__file__).parents[2]
 BIN = Path(sys.executable).parent
@@ -45,7 +45,7 @@ def test_the_cache_is_that_of_the_clone_unless_it_is_named(named, folder, tmp_pa
 @pytest.mark.parametrize("options", [["--cwd", "notebooks"], []], ids=["in the pages' folder", "from the clone"])
 def test_papermill_finds_the_pages_and_the_cache_of_the_clone_and_records_no_progress(options, tmp_path):
     cells = [new_code_cell("from companion.page import report"), new_code_cell(SIMULATE),
-             new_code_cell("from neorl.files import cache_folder\nprint(cache_folder())")]
+             new_code_cell("from neorl.common.files import cache_folder\nprint(cache_folder())")]
     metadata = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
     nbformat.write(new_notebook(cells=cells, metadata=metadata), tmp_path / "page.ipynb")
     environment = {name: value for name, value in os.environ.items() if name not in ("NEORL_CACHE", "PYTHONPATH")}

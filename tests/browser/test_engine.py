@@ -11,9 +11,10 @@ import pytest
 from neorl import Arena, Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
 from neorl.browser import wasm
 from neorl.browser.explorer import OTHER_SPACES, _parameters, _world
-from neorl.core.calls import execute
+from neorl.core.coordinates import sense
 from neorl.core.horde import as_vectors
-from neorl.core.kernel import mapped
+from neorl.kernels.annotations import mapped
+from neorl.kernels.execution import execute
 from neorl.worlds.probe import step_second, survey
 
 ENGINE = """
@@ -34,7 +35,7 @@ async function answers([requests, last]) {
   return JSON.parse(JSON.stringify(all.slice(-last), (_, value) => ArrayBuffer.isView(value) ? [...value] : value));
 }
 """
-CALLS = wasm.MODULES["plane"].life.calls
+CALLS = wasm.MODULES["plane"].life.functions
 TANK = WaterWorld(n_creeps=4)
 AGENT = network_d([4, 5])
 STEPS, SEED, K = 3_000, 5, 2
@@ -166,7 +167,7 @@ def test_a_radar_finds_a_place_by_its_bearing(ask):
     scene, (node, _) = run.world_state.scene, agent.nodes
     for place, frame in zip(places, found):
         things = np.vstack([place, scene.things[1:]])
-        coordinates = node.modality.coordinates(scene._replace(things=things), 1.0)[0]
+        coordinates = sense(node.modality, scene._replace(things=things), 1.0)[0]
         assert frame["seen"]["goal"] == agent.maps[0].encode(coordinates)
     assert found[-1]["reward"] == run.advance(1)
     assert [(each["x"], each["y"]) for each in found[-1]["things"]] == [tuple(each) for each in scene.things]

@@ -12,7 +12,8 @@ from explorer_page import COLOURS, coloured
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from playwright.sync_api import expect
 
-from neorl import Run, WaterWorld, files, place_cells
+from neorl import Run, WaterWorld, place_cells
+from neorl.common import files
 
 STEPS = 3_000
 LINK = '<a href="#explorer_run-2_minute-0p5">run 2</a>'

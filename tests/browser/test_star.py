@@ -4,11 +4,11 @@ import re
 from io import BytesIO
 from pathlib import Path
 
-import moving
+from writing import moving
 import neorl
 import numpy as np
 import pytest
-import star
+from writing import star
 from axe_playwright_python.sync_playwright import Axe
 from PIL import Image
 

@@ -11,17 +11,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 from webassembly import Machine, compiled, copied, module_of, sizes_of, state_of, widened
 
-from neorl import Run, WaterWorld, files, place_cells
-from neorl.agents.compile import chosen
+from neorl import Run, WaterWorld, place_cells
+from neorl.agents.embodiment import choices_in
 from neorl.browser import wasm
 from neorl.browser.explorer import OTHER_SPACES
 from neorl.browser.seeding import start_stream
 from neorl.browser.worlds import rules_of
+from neorl.common import files
 from neorl.core.building import WITHOUT_VALUES, laid_out
-from neorl.core.calls import execute
-from neorl.core.kernel import arrays, new_tuple
-from neorl.core.record import Memory
+from neorl.core.layout import Memory
 from neorl.core.stream import new_stream
+from neorl.kernels.annotations import arrays, new_tuple
+from neorl.kernels.execution import execute
 
 STEPS = 50_000
 OF_VALUES = ("values", "cells", "scratch", "tracks", "traces", "trace_weights", "passed", "left")  # sizes
@@ -60,10 +61,11 @@ def assert_lives_alike(run):
     """Advance a run in the module and natively, compare the two, and return the total reward."""
     machine, sizes, arguments = copied(run)
     for last_step in range(STEPS // 5, STEPS + 1, STEPS // 5):
-        arguments["total"] = machine.call("rollout", sizes, last_step=last_step, bin_steps=2 * STEPS, **arguments)
-    assert arguments["total"] == run.advance(STEPS)
+        machine.call("rollout", sizes, last_step=last_step, **arguments)
+    total = arguments["log"].paid[1][0]
+    assert total == run.advance(STEPS)
     assert_equal_to(run, arguments)
-    return arguments["total"]
+    return total
 
 
 BEGINNINGS = OTHER_SPACES | {name: (golden.agent_of(name), golden.world_of(name)) for name in (
@@ -75,7 +77,7 @@ def test_a_run_begins_as_in_python_without_any_python(name):
     agent, world = BEGINNINGS[name]
     run = Run(agent, world, seed=2**32 - 1, run=17)
     machine, sizes = Machine(name=module_of(run)), sizes_of(run)
-    record, draft = laid_out(chosen(agent, run.world))
+    record, draft = laid_out(choices_in(agent, run.world))
     agent, draft = machine.put(widened(record, module_of(run))), machine.put_tuple(draft)
     machine.call("derive", sizes | {name: 0 for name in OF_VALUES}, agent=agent, memory=draft, n_things=world.things)
     world_state = machine.put_tuple(new_tuple(type(state_of(run)), sizes, {}))

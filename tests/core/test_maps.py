@@ -8,7 +8,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Place, Run, WaterWorld
-from neorl.core.modality import (HEAD_DIRECTION_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL, TAU,
+from neorl.core.coordinates import sense, tune
+from neorl.core.direction import TAU
+from neorl.core.modality import (HEAD_DIRECTION_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL,
                                  cartesian)
 
 closed = pytest.mark.parametrize("modality", [each for each in MODALITIES if each.axes[-1].is_direction],
@@ -125,7 +127,7 @@ def test_the_cells_of_a_run_are_those_of_the_public_encoding(modality):
     run = Run(Agent((Node("X", modality, (2, 3)),)), WaterWorld(), seed=1)
     for _ in range(5):
         run.advance(150)
-        coordinates = modality.coordinates(run.world_state.scene, run.world.size)
+        coordinates = sense(modality, run.world_state.scene, run.world.size)
         expected = [nres_map.encode(coordinates).tolist() for nres_map in run.agent.maps]
         cells = run.memory.tracks.cell
         assert [cells[nres.first_track : nres.end_track].tolist() for nres in run.state.maps] == expected
@@ -172,8 +174,8 @@ def test_the_first_sector_lies_on_both_sides_of_east(modality, n):
 def test_the_sectors_of_n4_are_centred_on_east_south_west_and_north():
     compass = [[1, 0], [0, 1], [-1, 0], [0, -1]]
     heading, radar = NresMap(4, HEAD_DIRECTION_CELL), NresMap(4, OBJECT_VECTOR_CELL)
-    assert heading.encode(HEAD_DIRECTION_CELL.tune(compass)).tolist() == [0, 1, 2, 3]
-    assert radar.encode(OBJECT_VECTOR_CELL.tune(0.3 * np.array(compass))).tolist() == [1, 5, 9, 13]
+    assert heading.encode(tune(HEAD_DIRECTION_CELL, compass)).tolist() == [0, 1, 2, 3]
+    assert radar.encode(tune(OBJECT_VECTOR_CELL, 0.3 * np.array(compass))).tolist() == [1, 5, 9, 13]
     assert heading.encode([[TAU / 8 - 1e-12], [TAU / 8], [TAU * 7 / 8 - 1e-12], [TAU * 7 / 8 + 1e-12]]).tolist() == [
         0, 1, 3, 0]
 

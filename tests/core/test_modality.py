@@ -9,11 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from neorl import Axis, Modality, NresMap, Scene, WaterWorld, kernel
-from neorl.core.calls import execute
+from neorl.core.coordinates import sense, tune
 from neorl.core.direction import CIRCLE_TERMS, TAU, circle, heading, turn
-from neorl.core.kernel import function_of
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL, cartesian, polar)
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import function_of
 
 EAST, SOUTH, WEST, NORTH = 0.0, 0.5 * math.pi, math.pi, 1.5 * math.pi
 WORLD = WaterWorld(width=200, n_creeps=2)
@@ -75,12 +76,12 @@ def test_each_feature_equals_numpy(x, y, reach_x, reach_y):
     vector, reach = np.array([x, y]), np.array([reach_x, reach_y])
     margin = np.minimum(vector - reach, 0) + np.maximum(vector - (1 - reach), 0)
     margins = [Axis("position", "margin", along, -1, reach[along]) for along in (0, 1)]
-    assert Modality("margins", margins).tune(vector) == pytest.approx(margin, rel=1e-14, abs=1e-150)
+    assert tune(Modality("margins", margins), vector) == pytest.approx(margin, rel=1e-14, abs=1e-150)
     length, direction = np.hypot(x, y), np.arctan2(y, x) / TAU % 1.0 if x or y else 0.0
     for of in ("position", "velocity", "objects", "boundaries"):
         components = Modality("components", cartesian(of, (-1, 1), (-1, 1)))
-        assert components.tune(vector).tolist() == [x, y]
-        got_length, got_direction = Modality("radar", polar(of, 1)).tune(vector)
+        assert tune(components, vector).tolist() == [x, y]
+        got_length, got_direction = tune(Modality("radar", polar(of, 1)), vector)
         assert got_length == pytest.approx(length, rel=1e-14, abs=1e-150)
         assert turns_apart(got_direction / TAU, direction) < 1e-14
 
@@ -114,7 +115,7 @@ def scene_of(agent, velocity, creeps):
      [(0.3, -0.4, 0.95), (0.0, 0.0, 0.95)]),
 ])
 def test_coordinates_are_those_worked_out_by_hand(modality, expected):
-    coordinates = modality.coordinates(scene_of((20, 190), (-30, 40), [(80, 110), (20, 190)]), WORLD.size)
+    coordinates = sense(modality, scene_of((20, 190), (-30, 40), [(80, 110), (20, 190)]), WORLD.size)
     assert coordinates.dtype == float and coordinates.shape == (len(expected), len(modality.axes))
     np.testing.assert_allclose(coordinates, expected, atol=1e-12)
 
@@ -144,36 +145,36 @@ def test_coordinates_in_worlds_of_any_number_of_axes(position):
     n, things = len(position), np.array([[1.0] * len(position), [0.0] * len(position)])
     scene = Scene(np.array(position), np.array([0.1] * n), things, np.array([0, 0]), np.array([0, 0]))
     along = [Axis("position", along=each) for each in range(n)]
-    np.testing.assert_array_equal(Modality("place", along).coordinates(scene, 1.0), [position])
+    np.testing.assert_array_equal(sense(Modality("place", along), scene, 1.0), [position])
     objects = [Axis("objects", along=each, low=-1) for each in range(n)]
-    np.testing.assert_array_equal(Modality("objects", objects).coordinates(scene, 1.0), things - position)
-    walls = Modality("walls", [Axis("boundaries", "length")]).coordinates(scene, 1.0)[:, 0]
+    np.testing.assert_array_equal(sense(Modality("objects", objects), scene, 1.0), things - position)
+    walls = sense(Modality("walls", [Axis("boundaries", "length")]), scene, 1.0)[:, 0]
     np.testing.assert_allclose(walls, [*position, *1 - np.array(position)])
     speed = Modality("speed", [Axis("velocity", "length")])
-    np.testing.assert_allclose(speed.coordinates(scene, 1.0), [[0.1 * np.sqrt(n)]])
-    np.testing.assert_allclose(speed.tune(scene.velocity), [0.1 * np.sqrt(n)])
+    np.testing.assert_allclose(sense(speed, scene, 1.0), [[0.1 * np.sqrt(n)]])
+    np.testing.assert_allclose(tune(speed, scene.velocity), [0.1 * np.sqrt(n)])
 
 
 def test_a_direction_is_in_the_plane_of_the_first_two_axes():
-    assert HEAD_DIRECTION_CELL.tune([0.0, 1.0, 7.0]) == pytest.approx([SOUTH])
-    assert HEAD_DIRECTION_CELL.tune([0.0, 1e-300]) == pytest.approx([SOUTH])
+    assert tune(HEAD_DIRECTION_CELL, [0.0, 1.0, 7.0]) == pytest.approx([SOUTH])
+    assert tune(HEAD_DIRECTION_CELL, [0.0, 1e-300]) == pytest.approx([SOUTH])
 
 
 def test_vectors_of_any_shape_are_tuned_and_those_that_do_not_fit_are_refused():
-    assert OBJECT_VECTOR_CELL.tune(np.zeros((3, 4, 2))).shape == (3, 4, 2)
-    assert SPEED_CELL.tune([3, 4]).tolist() == [5.0]
-    assert HEAD_DIRECTION_CELL.tune(np.zeros((0, 2))).shape == (0, 1)
+    assert tune(OBJECT_VECTOR_CELL, np.zeros((3, 4, 2))).shape == (3, 4, 2)
+    assert tune(SPEED_CELL, [3, 4]).tolist() == [5.0]
+    assert tune(HEAD_DIRECTION_CELL, np.zeros((0, 2))).shape == (0, 1)
     several = Modality("X'", PLACE_CELL.axes + HEAD_DIRECTION_CELL.axes)
     for modality, vectors, message in [
             (OBJECT_VECTOR_CELL, [np.nan, 0.0], r"vectors must be finite numbers from -1e\+30 to 1e\+30, but is "),
             (HEAD_DIRECTION_CELL, [0.1], r"vectors must have the shape \(…, 2\) or more, of 8 axes at most, but has "),
             (several, [0.1, 0.2], "vectors must be of one kind, but X's have axes of several")]:
         with pytest.raises(ValueError, match=message):
-            modality.tune(vectors)
+            tune(modality, vectors)
 
 
 def test_coordinates_along_unequal_intervals_are_coordinates_which_a_map_encodes():
     modality = Modality("uneven", [Axis("position", boundaries=(0, 0.2, 0.5, 1))])
-    assert modality.tune([[0.3, 0.0], [0.1, 0.0], [0.9, 0.0]]).tolist() == [[0.3], [0.1], [0.9]]
-    assert NresMap(3, modality).encode(modality.tune([[0.3, 0.0], [0.1, 0.0], [0.9, 0.0]])).tolist() == [1, 0, 2]
-    assert modality.coordinates(Scene((0.3, 0.7)), 1.0).tolist() == [[0.3]]
+    assert tune(modality, [[0.3, 0.0], [0.1, 0.0], [0.9, 0.0]]).tolist() == [[0.3], [0.1], [0.9]]
+    assert NresMap(3, modality).encode(tune(modality, [[0.3, 0.0], [0.1, 0.0], [0.9, 0.0]])).tolist() == [1, 0, 2]
+    assert sense(modality, Scene((0.3, 0.7)), 1.0).tolist() == [[0.3]]

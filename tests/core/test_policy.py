@@ -8,9 +8,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from neorl import greedy, softmax
-from neorl.core.calls import execute
 from neorl.core.policy import exponential
 from neorl.core.stream import new_stream
+from neorl.kernels.execution import execute
 
 DRAWS = 20_000
 

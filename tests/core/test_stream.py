@@ -4,8 +4,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from neorl.core.calls import execute
 from neorl.core.stream import new_stream, randint, uniform
+from neorl.kernels.execution import execute
 
 
 @given(st.integers(0, 2**64), st.lists(st.integers(0, 100), max_size=3))

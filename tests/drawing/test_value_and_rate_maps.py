@@ -7,6 +7,7 @@ from matplotlib.transforms import Affine2D
 
 from companion.paper_b.receptive_fields import draw_receptive_fields
 from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Place, Run, WaterWorld, drawing
+from neorl.core.coordinates import sense, tune
 from neorl.core.direction import TAU
 from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, polar
 
@@ -77,7 +78,7 @@ def test_the_active_receptive_fields_are_filled(modality, resolution):
     state.scene.velocity[:] = np.array([-0.3, 0.13]) * TANK.width
     axes = draw_receptive_fields(nres_map, TANK, state)
     axes.figure.draw_without_rendering()
-    active = set(nres_map.encode(modality.coordinates(state.scene, TANK.size)))
+    active = set(nres_map.encode(sense(modality, state.scene, TANK.size)))
     fills = [fill for fill in axes.collections if fill.get_alpha()]
     assert len(fills) == len(active)
 
@@ -85,7 +86,7 @@ def test_the_active_receptive_fields_are_filled(modality, resolution):
     agent = state.scene.position / TANK.size
     seen = {"position": places, "velocity": (places - agent) / 0.5}.get(modality.follows, places - agent)
     filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
-    expected = np.isin(nres_map.encode(modality.tune(seen)), list(active))
+    expected = np.isin(nres_map.encode(tune(modality, seen)), list(active))
     assert np.mean(filled == expected) > 0.98  # all but where corners are rounded
 
 
@@ -106,7 +107,7 @@ def test_without_goals_a_value_map_is_of_what_the_agent_desires_now():
     goals = [*creeps[scene.kinds == 0], *creeps[scene.kinds == 1], (0.1, 0.2), (0.9, 0.9)]
     valences = [1.0] * sum(scene.kinds == 0) + [-0.5] * sum(scene.kinds == 1) + [2.0, 0.25]
     assert same_map(drawing.draw_value_map(run), drawing.draw_value_map(run, goals, valences))
-    landing = HEAD_DIRECTION_CELL.tune(run.state.desires[4].target_at)
+    landing = tune(HEAD_DIRECTION_CELL, run.state.desires[4].target_at)
     assert same_map(drawing.draw_value_map(run, index=1), drawing.draw_value_map(run, [landing], [0.5], index=1))
     assert same_map(drawing.draw_value_map(run, index=2), drawing.draw_value_map(run, [(0.0, 0.0)], index=2))
     with pytest.raises(ValueError, match="goals must be given, since the node 'idle' of this map desires nothing now"):

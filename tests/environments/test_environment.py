@@ -10,12 +10,12 @@ from pond import Pond
 from same import assert_equal
 
 from neorl import Agent, Arena, Run, Scene, WaterWorld, brownian, drawing
-from neorl.core.calls import execute
-from neorl.core.kernel import mapped
 from neorl.core.scene import ABSENT
 from neorl.drawing import AGENT
 from neorl.gym import WorldEnv
 from neorl.gym.observation import observe
+from neorl.kernels.annotations import mapped
+from neorl.kernels.execution import execute
 
 TANK = WaterWorld(width=60, n_creeps=2, win_reward=5.0)  # episodes end often
 POOL = Arena(places=[("platform", 0.65, 0.35), ("trap", 0.3, 0.4)], pay=[2.0, -1.0], trial_seconds=1.5)

@@ -8,7 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from neorl import Condition, Result, WaterWorld, files, place_cells, simulate
+from neorl import Condition, Result, WaterWorld, place_cells, simulate
+from neorl.common import files
+from neorl.experiments import store
 from neorl.experiments.command import main
 
 CONDITION = Condition(place_cells([3]), WaterWorld(), 600, 2)
@@ -25,7 +27,7 @@ def test_a_file_is_run_described_and_saved(cache_folder, tmp_path, capsys):
         "PC N3 in WaterWorld, 600 steps, 2 runs, seed 0",
         f"  reward per second: {rate.mean():.3f}, with a standard deviation over runs of {rate.std(ddof=1):.3f}",
         f"  kept in {tmp_path / 'results.npz'}"]
-    assert CONDITION.path.exists()
+    assert store.load(CONDITION) == simulate(**CONDITION.choices, progress=False)
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin2", "utf-8"])
@@ -39,11 +41,11 @@ def test_a_terminal_without_some_letters_prints_the_rest(cache_folder, tmp_path,
 
 def test_the_cache_is_listed_and_cleared(tmp_path, capsys, monkeypatch):
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
-    files.write_checked(tmp_path / "compiled" / ("0f" * 32), b"x" * 2_000_000)
+    files.write_checked(tmp_path / "compiled" / f"begin-{'0f' * 16}", b"x" * 2_000_000)
     assert main(["cache"]) == 0
     printed = capsys.readouterr().out
     assert str(tmp_path) in printed and "compiled kernels: 1 file, 2.000 MB" in printed
-    assert "finished conditions: 0 files" in printed and "together: 1 file, 2.000 MB" in printed
+    assert "finished runs of conditions: 0 files" in printed and "together: 1 file, 2.000 MB" in printed
     assert main(["cache", "--clear"]) == 0
     assert "1 file, 2.000 MB" in capsys.readouterr().out and not list((tmp_path / "compiled").iterdir())
     assert main(["cache", "--clear"]) == 0 and "0 files, 0.000 MB" in capsys.readouterr().out

@@ -37,7 +37,7 @@ def test_a_tank_with_other_creeps_is_refused_and_one_with_as_many_is_copied(run)
 
 def test_what_does_not_fit_into_memory_or_64_bits_is_refused(run):
     large = place_cells([2_000])
-    with pytest.raises(MemoryError, match="a run of this agent needs 238418.9 GiB of memory"):
+    with pytest.raises(MemoryError, match="a run of this agent needs 238419.0 GiB of memory"):
         Run(large, TANK)
     with pytest.raises(MemoryError, match="a run of this agent needs"):
         run.change(large)

@@ -15,8 +15,8 @@ import pytest
 from saved_files import rewrite
 
 from neorl import Condition, Learner, Result, Run, WaterWorld, place_cells, simulate
-from neorl.core.kernel import jit_is_off
 from neorl.experiments.bins import new_bins
+from neorl.kernels.kernel import jit_is_off
 from neorl.worlds.former import FormerWorld
 
 ROOMS = '''

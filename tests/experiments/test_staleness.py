@@ -15,8 +15,8 @@ from subprograms import printed
 
 from neorl import Condition, Policy, WaterWorld, kernel, place_cells, simulate, sweep
 from neorl.browser import wasm
-from neorl.core.kernel import jit_is_off
 from neorl.experiments import simulation
+from neorl.kernels.kernel import jit_is_off
 
 QUICK = ("Learner", "World", "environment", "Modality")  # to compile
 WAYS = ("cached", "sweep", "simulate", "Run", *QUICK)

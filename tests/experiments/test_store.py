@@ -11,10 +11,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import verify
+from computing import verify
 from same import alone
 
-from neorl import Condition, Learning, Policy, Result, WaterWorld, files, kernel, place_cells, simulate, softmax, sweep
+from neorl import Condition, Learning, Policy, WaterWorld, kernel, place_cells, simulate, softmax, sweep
+from neorl.common import files
 from neorl.experiments import condition as conditions
 from neorl.experiments import simulation, store
 from neorl.experiments.bins import new_bins
@@ -84,10 +85,11 @@ def test_a_condition_that_could_not_run_is_refused(change, message):
 
 @pytest.mark.parametrize("damage", [
     lambda content: content[:-1], lambda content: content[:40],
-    lambda content: bytes([*content[:-400], content[-400] ^ 1, *content[-399:]])])
+    lambda content: bytes([*content[:900], content[900] ^ 1, *content[901:]])])
 def test_a_damaged_file_is_noticed_and_computed_again(cache_folder, lived, damage):
     once(SHORT)
-    SHORT.path.write_bytes(damage(SHORT.path.read_bytes()))
+    (path,) = paths_of(SHORT)
+    path.write_bytes(damage(path.read_bytes()))
     assert_whole(once(SHORT), SHORT)
     once(SHORT)
     assert lived == [0, 1, 2, 0, 1, 2]
@@ -97,10 +99,15 @@ def test_a_damaged_file_is_noticed_and_computed_again(cache_folder, lived, damag
     {"rewards": np.zeros((3, 50), np.float32)}, {"rewards": np.zeros((3, 50)), "hits": np.zeros((3, 50, 2), np.int16)},
     {"rewards": np.zeros((2, 50), np.float32), "hits": np.zeros((2, 50, 2), np.int16)}],
     ids=["fields", "numbers", "runs"])
-def test_a_whole_file_of_another_version_is_no_result(lived, arrays):
-    files.write_arrays(SHORT.path, "Result", {}, arrays)
+def test_a_whole_file_of_another_version_is_no_result(cache_folder, lived, arrays):
+    files.write_arrays(cache_folder / "runs" / f"{SHORT.key}-{16 * 'f'}", "runs", {}, {"runs": np.arange(3)} | arrays)
     assert_whole(once(SHORT), SHORT)
     assert lived == [0, 1, 2]
+
+
+def paths_of(condition):
+    """The files of a condition, in the order of their names."""
+    return sorted((files.cache_folder() / "runs").glob(f"{condition.key}-*"))
 
 
 def interrupt_after(monkeypatch, count):
@@ -120,11 +127,10 @@ def test_the_runs_of_an_interrupted_condition_are_not_computed_again(monkeypatch
     with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
         interrupt_after(patch, 4)
         once(LONG)
-    assert len(found(cache_folder, "runs")) == 1 and len(store.load_runs(LONG)) == 4
+    assert len(found(cache_folder, "runs")) == 1 and len(store.load_runs(LONG)) == 4 and store.load(LONG) is None
     lived.clear()
     assert_whole(once(LONG), LONG)
-    assert len(lived) == 2
-    assert found(cache_folder, "runs") == [] and found(cache_folder, "conditions") == [LONG.key]
+    assert len(lived) == 2 and len(found(cache_folder, "runs")) == 2
 
 
 @pytest.mark.parametrize("damage", [lambda content: content[:-1], lambda content: b""])
@@ -133,10 +139,12 @@ def test_damaged_runs_are_computed_again(cache_folder, lived, damage):
     lived.clear()
     for runs in ((1, 2), (0, 5)):
         store.save_runs(LONG, {k: (alone.rewards[k], alone.hits[k]) for k in runs})
-    (path,) = (cache_folder / "runs").glob("*-0")
+    path = paths_of(LONG)[-1]
     path.write_bytes(damage(path.read_bytes()))
+    lost = {1, 2, 0, 5} - {*store.load_runs(LONG)}
+    assert lost in ({0, 5}, {1, 2})
     assert once(LONG) == alone
-    assert sorted(lived) == [0, 3, 4, 5]
+    assert sorted(lived) == sorted({3, 4} | lost)
 
 
 @pytest.mark.parametrize("options, reason", [("size=8k", "No space left"), ("ro", "Read-only")])
@@ -187,19 +195,16 @@ def started():
 def damaged(cache_folder):
     """Files under their final names that are not whole."""
     found = []
-    for folder, kind in (("conditions", "Result"), ("runs", "runs")):
-        for path in (cache_folder / folder).glob("[!.]*"):
-            try:
-                files.read_arrays(path, kind)
-            except FileNotFoundError:  # removed in the meantime
-                continue
-            except ValueError:
-                found.append(path)
+    for path in (cache_folder / "runs").glob("[!.]*"):
+        try:
+            files.read_arrays(path, "runs")
+        except ValueError:
+            found.append(path)
     return found
 
 
 def lived_so_far():
-    return sum(20 if store.load(each) else len(store.load_runs(each)) for each in WORKED_ON)
+    return sum(len(store.load_runs(each)) for each in WORKED_ON)
 
 
 @functools.cache
@@ -218,14 +223,12 @@ def test_a_sweep_that_is_killed_again_and_again_ends_with_equal_results(cache_fo
         process.communicate()
         assert damaged(cache_folder) == [] and lived_so_far() > had
     assert started().communicate() == (of_all(), "")
-    assert found(cache_folder, "runs") == []
 
 
 def test_two_sweeps_of_the_same_conditions_at_once_do_not_disturb_each_other(cache_folder):
     processes = [started(), started()]
     assert [process.communicate() for process in processes] == [(of_all(), "")] * 2
-    assert damaged(cache_folder) == [] and found(cache_folder, "runs") == []
-    assert len(found(cache_folder, "conditions")) == 3
+    assert damaged(cache_folder) == [] and all(map(store.load, WORKED_ON))
 
 
 def test_what_a_killed_process_was_writing_is_removed_when_it_is_old(tmp_path):
@@ -258,22 +261,22 @@ def folder(tmp_path, monkeypatch):
 
 
 def keep(condition):
-    rewards, hits = new_bins(condition.world, condition.runs, condition.steps)
-    store.save(Result(condition, rewards, hits))
-    return condition.path
+    store.save_runs(condition, dict(enumerate(zip(*new_bins(condition.world, condition.runs, condition.steps)))))
+    (path,) = paths_of(condition)
+    return path
 
 
 @pytest.fixture
 def full(folder):
     """A cache with a file of each kind among foreign files: {name: path}."""
-    paths = {"condition": keep(SHORT), "another condition": folder / "conditions" / DIGEST}
+    paths = {"condition": keep(SHORT), "another condition": folder / "runs" / f"{DIGEST}-{DIGEST[:16]}"}
     paths["another condition"].write_bytes(b"of another version")
-    for kind, name in (("compiled", DIGEST), ("wasm", DIGEST), ("runs", f"{DIGEST}-3")):
+    for kind, name in (("compiled", f"begin_self-{DIGEST[:32]}"), ("wasm", DIGEST)):
         paths[kind] = folder / kind / name
         files.write_checked(paths[kind], b"content")
     paths["claims"] = folder / "claims" / "chapter_1.json"
     files.write_whole(paths["claims"], json.dumps({"page": "chapter_1", "claims": {}}).encode())
-    for name in ("letter.txt", "conditions/letter.txt", "claims/letter.json", "claims/list.json", "compiled/letter",
+    for name in ("letter.txt", "runs/letter.txt", "claims/letter.json", "claims/list.json", "compiled/letter",
                  f"letters/{DIGEST}", f"wasm/{DIGEST}.wasm"):
         path = paths[f"other {name}"] = folder / name
         path.parent.mkdir(exist_ok=True)
@@ -281,7 +284,7 @@ def full(folder):
     return paths
 
 
-OURS = {"condition", "another condition", "compiled", "wasm", "runs", "claims"}
+OURS = {"condition", "another condition", "compiled", "wasm", "claims"}
 
 
 def test_what_is_neorls_is_removed_and_nothing_of_others(full):
@@ -312,7 +315,7 @@ def test_a_condition_with_a_local_kernel_is_kept(folder):
 @pytest.mark.parametrize("about", [
     "[]", json.dumps({"agent": {}, "world": {}, "steps": "x"})])
 def test_an_invalid_note_is_ignored(folder, about):
-    path = folder / "conditions" / DIGEST
+    path = folder / "runs" / f"{DIGEST}-{DIGEST[:16]}"
     path.parent.mkdir(parents=True)
     with path.open("wb") as file:
         np.savez(file, about=np.array(about))

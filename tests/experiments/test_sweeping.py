@@ -19,8 +19,8 @@ from distributed import Client, LocalCluster
 from same import alone
 
 from neorl import Condition, Policy, WaterWorld, multimodal, place_cells, simulate, sweep
-from neorl.core.kernel import jit_is_off
 from neorl.experiments import simulation, store
+from neorl.kernels.kernel import jit_is_off
 
 WORLD = WaterWorld()
 CONDITIONS = [Condition(place_cells([n]), WORLD, 2_000, 2, seed) for n in (2, 3) for seed in (0, 1)]
@@ -53,7 +53,7 @@ def test_a_sweep_returns_the_results_of_its_conditions_alone_and_in_order(lived,
 
 def test_without_a_cache_nothing_is_kept_and_the_first_error_ends_it(cache_folder, monkeypatch):
     simulate(**CONDITIONS[0].choices, progress=False)
-    assert not (cache_folder / "conditions").exists()
+    assert not (cache_folder / "runs").exists()
     fails(monkeypatch, lambda condition, runs: True)
     with pytest.raises(MemoryError, match="for now"):
         simulate(**CONDITIONS[0].choices, progress=False)
@@ -175,15 +175,15 @@ def test_a_cluster_of_worker_processes_brings_the_same(cluster, lived):
 def test_a_killed_worker_of_a_cluster_loses_only_its_current_task(cluster, monkeypatch):
     """One of two workers is killed as soon as the first condition is cached; unfinished tasks are repeated."""
     conditions = [Condition(place_cells([3]), WORLD, 200_000, 1, seed) for seed in range(20, 28)]
-    original, kept_after = store.save, []
+    original, kept_after = store.save_runs, []
 
-    def keep_and_kill(result):
-        original(result)
+    def keep_and_kill(condition, runs, key):
+        original(condition, runs, key)
         if not kept_after:
             os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
-        kept_after.append(result)
+        kept_after.append(key)
 
-    monkeypatch.setattr(store, "save", keep_and_kill)
+    monkeypatch.setattr(store, "save_runs", keep_and_kill)
     with Client(cluster) as client:
         results = sweep(conditions, client.get_executor(), progress=False)
     assert len(kept_after) == len(conditions)  # each once

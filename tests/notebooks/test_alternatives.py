@@ -11,9 +11,9 @@ from companion.alternatives.contestants import of_thesis
 from companion.alternatives.living import BOARDS, Earned
 from companion.page import beginning
 from neorl import Run, WaterWorld, brownian, forager, place_cells, simulate
-from neorl.core.calls import execute
-from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
+from neorl.kernels.annotations import arrays
+from neorl.kernels.execution import execute
 from neorl.worlds.waterworld import GREEN, RED
 
 SETTINGS = search.best_settings()

@@ -5,7 +5,7 @@ import pytest
 from page_cells import executed
 
 from neorl import Run
-from neorl.core.kernel import arrays
+from neorl.kernels.annotations import arrays
 
 AGENT = "multimodal([3, 5], learning=Learning(learning_rate=0.1, discount=0.9, memory=0.0, bootstrap=True))"
 

@@ -14,8 +14,8 @@ from companion.chapter_4.noise import expected_squared_displacement, mean_square
 from companion.chapter_4.superposition import fit_ridges, plan
 from companion.shared.grid import Grid
 from neorl.agents.rules import CALIBRATED
-from neorl.core.calls import execute
 from neorl.core.stream import new_stream, randint, uniform
+from neorl.kernels.execution import execute
 from companion.thesis.reading import READINGS, conditions
 
 FAR = (np.inf, 0, 0)

@@ -8,9 +8,9 @@ from companion.chapter_2.maze import (DAYS, GROUPS, LEARNERS, Animal, Maze, Reco
                                       live, simulate)
 from companion.shared.grid import MOVES
 from companion.shared.tabular import Rates
-from neorl.core.calls import execute
-from neorl.core.kernel import new_tuple
 from neorl.core.stream import new_stream
+from neorl.kernels.annotations import new_tuple
+from neorl.kernels.execution import execute
 
 N, S, E, W = range(4)
 FED_FROM = dict(zip(GROUPS, (1, DAYS + 1, 11)))

@@ -10,7 +10,8 @@ from companion.other_spaces import trials
 from companion.shared.tabular import Rates
 from neorl import Learning, Policy, Run, Scene, WaterWorld, place_cells, simulate
 from neorl.agents.spaces import FAR_RADAR, pilot, reacher, swimmer
-from neorl.core.kernel import function_of
+from neorl.core.coordinates import sense
+from neorl.kernels.kernel import function_of
 
 RUNS, STEPS = 2, 3_000
 
@@ -33,7 +34,7 @@ def test_a_bearing_is_seen_from_the_bow(thing, turns):
         to_world = np.array([[math.cos(heading), -math.sin(heading)], [math.sin(heading), math.cos(heading)]])
         place = 0.5 + to_world @ (np.array(thing) - 0.5)
         scene = Scene(np.array([0.5, 0.5]), 0.1 * to_world[:, 0], place[None], np.zeros(1, int), np.zeros(1, int))
-        (seen,) = FAR_RADAR.modality.coordinates(scene, 1.0)
+        (seen,) = sense(FAR_RADAR.modality, scene, 1.0)
         assert (seen[1] - turns + 0.5) % 1 == pytest.approx(0.5, abs=1e-9)
         assert seen[0] == pytest.approx(0.4)
 

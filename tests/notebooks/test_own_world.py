@@ -22,6 +22,7 @@ for cell in json.loads(sys.argv[1]):
 SETUP = """
 import json, sys
 from neorl import *
+from neorl.experiments import store
 from neorl.core.modality import PLACE_CELL
 
 def agent():
@@ -31,7 +32,7 @@ def agent():
 
 def look():
     condition = Condition(agent(), Pond(), 600, 2)
-    known = condition.path.exists()
+    known = store.load(condition) is not None
     reward = simulate(**condition.choices, cache=True, progress=False).rewards.sum()
     print(json.dumps([condition.key, float(reward), known]))
 """

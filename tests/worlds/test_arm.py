@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from neorl.core.direction import circle
-from neorl.core.kernel import function_of
+from neorl.kernels.kernel import function_of
 from neorl.worlds import arm
 from neorl.worlds.arm import Arm
 

@@ -6,15 +6,16 @@ from same import assert_same
 
 from neorl import (Agent, Node, NresMap, Run, WaterWorld, multimodal, network_d, object_vector_cells, place_cells,
                    superpose)
-from neorl.agents.compile import life_of
-from neorl.core.calls import execute
-from neorl.core.kernel import mapped
+from neorl.agents.embodiment import life_of
+from neorl.core.coordinates import sense, tune
 from neorl.core.modality import OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
+from neorl.kernels.annotations import mapped
+from neorl.kernels.execution import execute
 from neorl.worlds.probe import cell_seen_at, step_second, survey
 from neorl.worlds.waterworld import GREEN, RED
 
 TANK = WaterWorld(n_creeps=5)
-CALLS = life_of(place_cells(), whole=True).calls
+CALLS = life_of(place_cells(), whole=True).functions
 
 
 def surveyed(run, side):
@@ -53,7 +54,7 @@ def test_a_place_is_seen_in_the_cell_that_is_as_it_lies_and_otherwise_as_the_age
     run.advance(200)
     scene, (x, y) = run.world_state.scene, (0.7, 0.2)
     from_agent = np.array([x, y]) - scene.position / TANK.width
-    expected = [*(NresMap(n, OBJECT_VECTOR_CELL).encode(OBJECT_VECTOR_CELL.tune(from_agent)) for n in (3, 5)),
+    expected = [*(NresMap(n, OBJECT_VECTOR_CELL).encode(tune(OBJECT_VECTOR_CELL, from_agent)) for n in (3, 5)),
                 NresMap(4, conjunctive).encode([x, y, np.hypot(*scene.velocity) / TANK.width])]
     assert expected == [execute(cell_seen_at, run._record.copy(), run._memory, scene, CALLS, m, x, y) for m in range(3)]
 
@@ -68,7 +69,7 @@ def test_a_creep_that_somebody_else_takes_is_gone_and_nothing_is_learned_from_it
     taken = second.met != 0
     assert second.met[2] == 1 + RED and paid == sum(second.met == 1 + GREEN) - sum(second.met == 1 + RED)
     assert np.array_equal(run.memory.q, before.memory.q)
-    coordinates = run.agent.maps[0].modality.coordinates(board.scene, TANK.size)
+    coordinates = sense(run.agent.maps[0].modality, board.scene, TANK.size)
     assert np.array_equal(run.memory.tracks.cell[taken], run.agent.maps[0].encode(coordinates)[taken])
     assert not run.memory.events[taken].any() and not run.memory.tracks.remembered[taken].any()
     assert np.array_equal(run.memory.tracks.cell[~taken], before.memory.tracks.cell[~taken])

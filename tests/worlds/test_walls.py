@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from neorl import Arena, Axis, Modality, Scene, execute, walls
-from neorl.core.kernel import function_of
+from neorl.core.coordinates import sense
+from neorl.kernels.kernel import function_of
 
 UNIT = st.floats(0, 1)
 THIN = st.sampled_from([1e-12, 1e-6, 1e-3, 0.05])
@@ -63,19 +64,19 @@ WEST_AND_NORTH = Modality("boundary-vector cell", [Axis(walls.distance_along(MAZ
 def test_an_axis_measures_the_distance_to_the_nearest_wall(place):
     table = np.array(MAZE)
     nearest = np.hypot(*(place - np.clip(place, table[:, :2], table[:, 2:])).T).min()
-    assert BORDER.coordinates(Scene(place), 1.0)[0, 0] == pytest.approx(nearest, abs=1e-12)
+    assert sense(BORDER, Scene(place), 1.0)[0, 0] == pytest.approx(nearest, abs=1e-12)
 
 
 @pytest.mark.parametrize("place, west, north", [
     ((0.3, 0.5), 0.3, 0.5), ((0.6, 0.5), 0.14, 0.5), ((0.6, 0.69), 0.14, 0.69), ((0.6, 0.7), 0.6, 0.7),
     ((0.455, 0.9), 0.455, 0.2), ((0.455, 0.3), 0.0, 0.0)])
 def test_an_axis_measures_the_distance_to_the_first_wall_in_a_direction(place, west, north):
-    np.testing.assert_allclose(WEST_AND_NORTH.coordinates(Scene(place), 1.0), [[west, north]], atol=1e-12)
+    np.testing.assert_allclose(sense(WEST_AND_NORTH, Scene(place), 1.0), [[west, north]], atol=1e-12)
 
 
 def test_a_slanted_ray_meets_the_wall_where_it_should_and_an_open_side_is_infinitely_far():
     slanted = Modality("X", [Axis(walls.distance_along([(0.5, 0, 0.6, 1)], 3, 4)),
                              Axis(walls.distance_along([(0.5, 0, 0.6, 1)], -1, 0))])
-    away, open_side = slanted.coordinates(Scene((0.2, 0.1)), 1.0)[0]
+    away, open_side = sense(slanted, Scene((0.2, 0.1)), 1.0)[0]
     assert away == pytest.approx(0.5) and open_side > 1e300
-    assert slanted.coordinates(Scene((0.2, 0.7)), 1.0)[0, 0] > 1e300  # it passes below the wall
+    assert sense(slanted, Scene((0.2, 0.7)), 1.0)[0, 0] > 1e300  # it passes below the wall

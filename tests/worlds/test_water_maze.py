@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from neorl.core.calls import execute
+from neorl.kernels.execution import execute
 from neorl.worlds.water_maze import WaterMaze
 
 RIM = [(0.5, 0.05), (0.5, 0.95), (0.95, 0.5), (0.05, 0.5)]

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from neorl import WaterWorld
-from neorl.core.kernel import arrays
+from neorl.kernels.annotations import arrays
 from neorl.worlds.waterworld import GREEN, RED
 
 RECORDINGS = dict(np.load(Path(__file__).with_name("waterworld_recordings.npz")))

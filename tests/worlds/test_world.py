@@ -8,10 +8,10 @@ import pytest
 
 from neorl import (CARDINAL, Actions, Agent, Axis, Condition, Desire, Learning, Modality, Node, Place, Policy, Run,
                    Scene, World, brownian, kernel, simulate)
-from neorl.core.kernel import array
 from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian
 from neorl.core.stream import uniform
 from neorl.gym.vector import VectorWorldEnv
+from neorl.kernels.annotations import array
 from neorl.worlds.world import Dynamics
 
 

@@ -20,7 +20,8 @@ from companion.alternatives.living import Contestant, learn_nothing
 from companion.alternatives.tabular_learners import ACTIONS
 from neorl.core.choices import Action
 from neorl.core.scene import ABSENT
-from neorl.core.kernel import array, inlined_kernel, kernel
+from neorl.kernels.annotations import array
+from neorl.kernels.kernel import inlined_kernel, kernel
 from neorl.worlds.waterworld import GREEN, RED, WaterWorldState, step
 
 PLANNED = 1 / 30  # length of the planner's runs, which does not learn, as a share of a learner's

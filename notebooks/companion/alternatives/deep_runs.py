@@ -26,7 +26,7 @@ import numpy as np
 from companion.alternatives.living import MINUTE, Row, read, write
 from companion.alternatives.search import DEEP, DEEP_SETTINGS, DEEP_STEPS, SEED, append, best_settings, setting_of
 from companion.alternatives.search import read as read_search
-from neorl.extras import require
+from neorl.common.extras import require
 
 gymnasium = require("gymnasium", extra="gym")
 

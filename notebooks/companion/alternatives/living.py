@@ -18,12 +18,14 @@ from typing import NamedTuple
 import numpy as np
 
 from companion.shared.runs import each_run
-from neorl.agents.compile import n_bytes
-from neorl.core.calls import execute
-from neorl.core.kernel import arrays, inlined, kernel
+from neorl.agents.embodiment import embodied
+from neorl.common.files import write_whole
+from neorl.core.building import n_bytes
 from neorl.core.stream import new_stream
 from neorl.experiments.run import Run
-from neorl.files import write_whole
+from neorl.kernels.annotations import arrays
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import inlined, kernel
 from neorl.worlds import waterworld
 from neorl.worlds.waterworld import WaterWorld
 
@@ -153,7 +155,8 @@ def of_result(result, bins=None):
     run.advance(1)
     began = thread_time()
     run.advance(timed)
-    return Earned(rewards, result.steps, (thread_time() - began) / timed, n_bytes(result.agent, result.world) / 1e3)
+    record, _ = embodied(result.agent, result.world)
+    return Earned(rewards, result.steps, (thread_time() - began) / timed, n_bytes(record) / 1e3)
 
 
 class Row(NamedTuple):

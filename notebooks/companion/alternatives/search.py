@@ -19,7 +19,7 @@ import numpy as np
 from companion.alternatives.controllers import Gains, pd
 from companion.alternatives.living import BOARDS, FOLDER, live
 from companion.alternatives.tabular_learners import TABULAR, Setting
-from neorl import checks
+from neorl.common import checks
 
 SETTINGS, STEPS, RUNS, SEED = 256, 150_000, 4, 1_000
 DEEP_SETTINGS, DEEP_STEPS = 6, 36_000  # steps: a multiple of three minutes of 3,000

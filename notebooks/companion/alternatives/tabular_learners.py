@@ -24,7 +24,8 @@ import numpy as np
 
 from companion.alternatives.living import Contestant
 from companion.shared.tabular import exploring_action, learn_q
-from neorl.core.kernel import array, inlined_kernel, kernel
+from neorl.kernels.annotations import array
+from neorl.kernels.kernel import inlined_kernel, kernel
 from neorl.worlds.waterworld import GREEN
 
 ACTIONS = 5  # N, S, E, W and no-op

@@ -25,20 +25,21 @@ import numpy as np
 
 from companion.shared.grid import MOVES
 from companion.shared.tabular import Rates, exploring_action, greedy_action, learn_q
-from neorl import checks
 from neorl.agents.agent import Agent, Desire, Node
-from neorl.agents.compile import compiled, life_of
+from neorl.agents.embodiment import embodied, life_of
 from neorl.agents.learner import Surroundings
 from neorl.agents.rules import Learning, Policy
+from neorl.common import checks
 from neorl.core.building import with_values
-from neorl.core.called import Life
-from neorl.core.calls import execute
-from neorl.core.kernel import array, kernel, new_tuple
+from neorl.core.functions import Life
+from neorl.core.layout import Memory
+from neorl.core.layout import Record as AgentRecord
 from neorl.core.modality import Axis, Modality
-from neorl.core.record import Memory
-from neorl.core.record import Record as AgentRecord
 from neorl.core.scene import ABSENT, Actions, Scene
 from neorl.core.stream import new_stream
+from neorl.kernels.annotations import array, new_tuple
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import kernel
 from neorl.statistics import Estimate, difference, estimate
 
 LEARNERS = ("neoRL", "Q-learning", "Sarsa(λ)")
@@ -194,7 +195,7 @@ def live(animal, maze, first_meal, stream):
     """For each day in turn, an animal's errors and its values of actions for reaching the goal box, (states, 4)."""
     if animal.learner == "neoRL":
         agent = neorl_animal(animal, maze)
-        record, memory = compiled(agent, KNOWN)
+        record, memory = embodied(agent, KNOWN)
         record["stream"], memory = stream, with_values(record, memory)
         scene = new_tuple(Scene, {"axes": 1, "things": 1}, {"things": np.array([[maze.goal + 0.5]]),
                                                             "kinds": np.array([ABSENT])})
@@ -262,13 +263,13 @@ def live_a_day(agent: AgentRecord, memory: Memory, scene: Scene, life: Life, nex
     """Run an agent through the maze once, and return its errors. fed: whether there is food."""
     place, errors = 0, 0
     scene.position[0] = 0.5
-    life.begin(agent, memory, scene, life.calls)
+    life.begin(agent, memory, scene, life.functions)
     for _ in range(LONGEST_TRIAL):
         place_tm1 = place
-        place = next_state[place_tm1, life.act(agent, memory, scene, life.calls)]
+        place = next_state[place_tm1, life.act(agent, memory, scene, life.functions)]
         errors += place > goal and place != place_tm1
         scene.position[0] = place + 0.5
-        life.observe(agent, memory, scene, life.calls)
+        life.observe(agent, memory, scene, life.functions)
         if place == goal:
             break
     if place == goal and fed:

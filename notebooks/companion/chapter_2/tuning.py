@@ -17,6 +17,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import lfilter
 
+from neorl.core.coordinates import tune
 from neorl.core.direction import TAU
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 
@@ -97,7 +98,7 @@ def in_field(nres_map, cell, trajectory, objects=()):
         vectors = [place - trajectory.position for place in places]
     else:
         vectors = [getattr(trajectory, modality.follows)]
-    active = [nres_map.encode(modality.tune(each)) == cell for each in vectors]
+    active = [nres_map.encode(tune(modality, each)) == cell for each in vectors]
     return np.any(np.reshape(active, (-1, len(trajectory.position))), axis=0)
 
 

@@ -20,10 +20,10 @@ from typing import NamedTuple
 import numpy as np
 
 from companion.shared.tabular import Rates, exploring_action, learn_q
-from neorl import checks
-from neorl.core.calls import execute
-from neorl.core.kernel import kernel
+from neorl.common import checks
 from neorl.core.stream import new_stream, randint, uniform
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import kernel
 
 RULES = {
     "sum": "the sum of the last L symbols modulo Ψ",

@@ -18,11 +18,11 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.agents.rules import CALIBRATED, Learning
-from neorl.core.calls import execute
 from neorl.core.choices import Credit
-from neorl.core.kernel import kernel
 from neorl.core.learning import UNIT, ZERO, MapValues, Order, Rule, learn_all_goals, learn_one_goal
 from neorl.core.stream import randint, new_stream, uniform
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import kernel
 
 ROLES = ("cause", "other lever", "light", "bell")
 N_EVENTS = len(ROLES)

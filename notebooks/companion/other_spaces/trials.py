@@ -12,10 +12,11 @@ import math
 import numpy as np
 
 from companion.shared.tabular import Rates, exploring_action, learn_q
-from neorl.core.calls import execute
-from neorl.core.kernel import array, fields, kernel, mapped
 from neorl.core.stream import new_stream
 from neorl.experiments.run import Run
+from neorl.kernels.annotations import array, fields, mapped
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import kernel
 
 SIDE = 9  # cells along each side of the pool, as in the finer of the swimmer's maps
 STRETCH = 500  # steps between two checks of whether all trials are over

@@ -9,8 +9,8 @@ from matplotlib import pyplot as plt
 from matplotlib_inline.backend_inline import set_matplotlib_formats
 
 from companion.page import parameters
-from neorl.core.kernel import function_of
 from neorl.drawing.style import use_style
+from neorl.kernels.kernel import function_of
 
 listed = parameters.listed
 

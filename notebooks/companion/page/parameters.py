@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from companion.thesis.reading import READINGS
-from neorl import checks
+from neorl.common import checks
 
 FINEST = 90  # intervals per axis, of the finest map in the thesis
 MOST_CREEPS = 20  # as in the Explorer

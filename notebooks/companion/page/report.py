@@ -3,7 +3,7 @@
 A record is a JSON file for each page, in the folder ``claims`` of the cache. It has the claims that the page has judged
 under the reading that it ran, or the shares of readings within the text that agree with claims ("shares"). Together
 they have the claims under the book's reading ("claims"), those under the reading to the letter ("letter") and the
-shares. `book/ledger.py` makes the page of all claims from the records.
+shares. `book/writing/ledger.py` makes the page of all claims from the records.
 """
 
 import json
@@ -17,9 +17,9 @@ from companion.thesis.errata import ERRATA
 from companion.page.marks import DECIDED, NOT_COMPUTED, leads, legend, symbol
 from companion.page.opening import link
 from companion.thesis.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
-from neorl.statistics import Estimate
+from neorl.common.files import cache_folder, write_whole
 from neorl.experiments.condition import source_digest
-from neorl.files import cache_folder, write_whole
+from neorl.statistics import Estimate
 
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
 LEGEND = (f"{legend()}; without a symbol, no verdict. Numbers: the quantities in italics, with 95\u00a0% intervals "

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Rectangle
 
+from neorl.core.coordinates import sense, tune
 from neorl.core.direction import TAU
 from neorl.drawing.boards import board_or_new
 from neorl.drawing.style import AGENT, INK
@@ -23,7 +24,7 @@ def draw_receptive_fields(nres_map, world, state, ax=None):
     side = np.linspace(0, 1, RASTER)
     places = np.stack(np.meshgrid(side, side), axis=-1)
     vectors = {"position": places, "velocity": (places - agent) / HALF_SECOND}.get(modality.follows, places - agent)
-    at = _in_intervals(nres_map, modality.tune(vectors))
+    at = _in_intervals(nres_map, tune(modality, vectors))
     axes = board_or_new(ax)
     arena = axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     thin = {"linewidths": 0.8, "colors": INK, "zorder": -1}
@@ -37,7 +38,7 @@ def draw_receptive_fields(nres_map, world, state, ax=None):
             rays.set_clip_path(arena)
         elif len(borders):
             axes.contour(side, side, at[..., i], borders, **thin)
-    for cell in np.unique(nres_map.encode(modality.coordinates(state.scene, world.size))):
+    for cell in np.unique(nres_map.encode(sense(modality, state.scene, world.size))):
         intervals = np.unravel_index(cell, nres_map.intervals, order="F")
         inside = np.min([_depth(at[..., i], interval, nres_map.intervals[i], modality.axes[i].closed)
                          for i, interval in enumerate(intervals)], axis=0)

@@ -17,10 +17,11 @@ import numpy as np
 
 from neorl.agents.papers import place_cells
 from neorl.agents.rules import Learning
-from neorl.core.calls import execute
-from neorl.core.kernel import array, kernel
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.experiments.run import Run
+from neorl.kernels.annotations import array
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import kernel
 from neorl.worlds.waterworld import GREEN, WaterWorld
 
 PLAIN = Learning(learning_rate=0.03, discount=0.8, credit="share")

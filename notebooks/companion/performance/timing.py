@@ -11,8 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
-from neorl.core.calls import execute
-from neorl.core.kernel import array, kernel
+from neorl.kernels.annotations import array
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import kernel
 from neorl.statistics import Estimate
 
 SMALLEST, LARGEST = 2**14, 2**28  # bytes

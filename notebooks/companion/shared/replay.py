@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl import checks
 from neorl.browser.explorer import AnyWidget, text_of, traitlets
+from neorl.common import checks
 from neorl.experiments.bins import new_bins
 from neorl.experiments.run import Run
 from neorl.worlds.waterworld import GREEN, WaterWorld

@@ -32,7 +32,7 @@ from companion.study.calibration_table import Row
 from companion.study.calibration_targets import GROUPS, TARGETS
 from neorl.agents.papers import LAYERS
 from companion.thesis.reading import TO_THE_LETTER, Reading
-from neorl.extras import require
+from neorl.common.extras import require
 
 RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
 DESIGN, IN_FULL = 512, 48  # readings in wave 0, a power of two, and how many of them are run in every group

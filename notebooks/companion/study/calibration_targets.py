@@ -23,7 +23,7 @@ import numpy as np
 from companion.page.marks import DECIDED
 from companion.thesis.measures import EARLY, FINAL
 from companion.thesis.statements import STATEMENTS, VISIBLE, Bounds
-from neorl import checks
+from neorl.common import checks
 from neorl.statistics import Estimate
 
 BROWNIAN_A, BROWNIAN_B = 0.03, 0.1  # what Brownian motion earns per second with 8 creeps and with 3

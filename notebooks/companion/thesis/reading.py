@@ -9,11 +9,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
-from neorl import checks
 from neorl.agents import papers
 from neorl.agents.agent import Agent, Node
 from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
-from neorl.checks import OneOf
+from neorl.common import checks
+from neorl.common.checks import OneOf
 from companion.thesis import claims
 from companion.thesis.statements import STATEMENTS
 from neorl.experiments.condition import Condition

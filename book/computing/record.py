@@ -1,0 +1,142 @@
+"""Compute and record what is reproduced, as `record.json`: ``make record``, some three core-hours.
+
+1. Claims about the papers' agents are judged by runs of the record's own, under both readings: as many as `RUNS` says
+   for each group of conditions, from a seed that no search has seen. Their numbers were fixed before, and they are
+   looked at once. Finished runs are cached, so that an interrupted record goes on where it was.
+2. All other claims are those of pages, from a build with 100 runs, ``make book RUNS=100``; those that the last build
+   lacks stay as they were recorded. Beside them stand paper A's claims at 50 steps per second.
+3. The record is committed, and what the front page, the page of claims and the README show. It holds as long as runs
+   have the same bits and the readings the same choices. So it has a *sample*, a run of each of some conditions under
+   both readings, which a test recomputes (`moved`).
+"""
+
+import datetime
+import hashlib
+import json
+import subprocess
+import sys
+import time
+from dataclasses import replace
+
+import numpy as np
+from companion.chapter_5 import trials
+from companion.page import report
+from companion.paper_b.trials import mean_stays
+from companion.thesis import claims
+from companion.thesis.reading import LENGTHS, NAMES, PRIMES, READINGS, conditions, judge
+from companion.thesis.statements import STATEMENTS
+
+from computing.compute import ROOT, records
+from computing.verify import recomputed
+from neorl.common.files import write_whole
+from neorl.experiments.condition import source_digest
+from neorl.experiments.simulation import sweep
+
+RECORD = ROOT / "book" / "record.json"
+SEED = 20_261_128
+CALIBRATED = {"layers": 500, "single": 200, "modal": 500, "pace": 500, "networks": 1_000, "revaluing": 200,
+              "resolutions": 100, "long": 20}
+RUNS = {"claims": CALIBRATED, "letter": CALIBRATED | dict.fromkeys(
+    ("layers", "modal", "pace", "networks", "resolutions"), 200)}  # where most is clear
+CONTROLS = 1_000  # runs of Brownian motion
+OF_PAGES = 100  # runs of claims that pages judge
+AT_50 = {"layers": 500, "single": 200}  # of the calibrated reading with paper A at 50 steps per second
+REMEDY = "make record"
+SAMPLED = (("brownian", 8), ("layer", 7), "layers", ("single", 50), ("place", "all"), ("objects", "all"), "both",
+           *(("network", name) for name in "ABCD"), "revalued")
+
+
+def main():
+    if changed := output("git", "status", "--porcelain", "--", ".", f":!{RECORD.relative_to(ROOT)}"):
+        sys.exit(f"the work tree must be clean, so that the commit has all that was computed, but it has:\n{changed}")
+    content = of_book({part: {} for part in report.PARTS})
+    for part, of_pages in built().items():
+        content[part] = content[part] | of_pages
+    for name, reading in READINGS.items():
+        part = report.PART_OF[name]
+        content[part] = content[part] | report.kept(of_reading(reading, RUNS[part]).values())
+    at_50 = READINGS["calibrated"].varied(paper_a_fps=50)
+    content |= {"paper A at 50": report.kept(judge(lived(at_50, AT_50)).values()),
+                "commit": output("git", "rev-parse", "--short", "HEAD"), "date": f"{datetime.date.today()}"}
+    if missing := [name for name in STATEMENTS if name not in content["claims"]]:
+        sys.exit(f"every claim must be judged, but not {', '.join(missing)}: make book RUNS={OF_PAGES}, then {REMEDY}")
+    content = rounded(content) | {"sample": sample()}
+    write_whole(RECORD, (json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False) + "\n").encode())
+
+
+def of_book(build):
+    """The committed record, or without one the build's own."""
+    return json.loads(RECORD.read_text(encoding="utf-8")) if RECORD.exists() else build
+
+
+def built():
+    """What the last build has found on claims that pages alone judge, with enough runs and the present source.
+
+    Returns {part of the record: {name of a claim: …}}, as `report.load` does.
+    """
+    paths = [path for path in records().values()
+             if json.loads(path.read_text(encoding="utf-8"))["source"] == source_digest()]
+    found = report.load(paths)
+    enough = {part: {name: each for name, each in found[part].items()
+                     if each["runs"] >= OF_PAGES or STATEMENTS[name].kind in ("code", "report") or name == "A10"}
+              for part in ("claims", "letter")}
+    return enough | ({"shares": found["shares"]} if found["shares"] else {})
+
+
+def of_reading(reading, runs):
+    """The claims about the papers' agents under a reading: {name: `Claim`}. runs: {group of conditions: number}."""
+    results = lived(reading, runs)
+    both, place = (replace(results[key].condition, runs=runs["revaluing"]) for key in ("both", ("place", "all")))
+    results["moved"] = {"both": trials.distances(both).means, "place cells": trials.distances(place).means}
+    stays = mean_stays(replace(place, runs=OF_PAGES))
+    return judge(results) | {"T8": claims.judge_time_scale(PRIMES, stays.seconds, stays.without)}
+
+
+def lived(reading, runs):
+    """The results of a reading's conditions: {key: `Result`}, of each the most runs that a group asks for."""
+    wanted = {}
+    for group, number in sorted(runs.items(), key=lambda item: -item[1]):
+        for key, condition in conditions(reading, LENGTHS["B"], number, SEED, [group]).items():
+            wanted.setdefault(key, replace(condition, runs=CONTROLS) if key[0] == "brownian" else condition)
+    results, began = {}, time.monotonic()
+    for key, condition in wanted.items():
+        (results[key],) = sweep([condition])
+        print(f"{_words(key)}: {condition.runs} runs, {time.monotonic() - began:.0f} s", flush=True)
+    return results
+
+
+def sample():
+    """The first run of each condition under each reading, as `summary` has it: {reading: {condition: [...]}}."""
+    wanted = {NAMES[name]: conditions(reading, LENGTHS["B"], 1, SEED) for name, reading in READINGS.items()}
+    return {name: {_words(key): summary(made[key]) for key in SAMPLED} for name, made in wanted.items()}
+
+
+def _words(key):
+    return key if isinstance(key, str) else " ".join(map(str, key))
+
+
+def summary(condition):
+    """The total reward of a condition's first run, and a digest of its rewards in each bin."""
+    rewards, _ = recomputed(condition, 0)
+    return [float(rewards.sum(dtype=np.float64)), hashlib.sha256(rewards.astype("<f4").tobytes()).hexdigest()[:16]]
+
+
+def moved(record):
+    """The sampled runs of a record that the present source computes otherwise: a list of "reading, condition"."""
+    now = sample()
+    return [f"{reading}, {key}" for reading, runs in now.items() for key, run in runs.items()
+            if record["sample"].get(reading, {}).get(key) != run]
+
+
+def rounded(found):
+    """The same findings with numbers of six significant digits."""
+    return json.loads(json.dumps(found), parse_float=lambda text: float(f"{float(text):.6g}"))
+
+
+def output(*command):
+    """What a command prints, in the root of the project. Raises CalledProcessError if it fails."""
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout.rstrip()
+
+
+if __name__ == "__main__":
+    main()

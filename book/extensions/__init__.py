@@ -1,0 +1,1 @@
+"""Extensions of Sphinx: docstrings, terms, buttons, and how pages are typeset."""

@@ -1,0 +1,58 @@
+"""The star: an agent with experience, and a place that it comes to want, for the front page and the README.
+
+1. Two agents run in tanks that begin alike: one has learned for `LESSON` in a run of another seed, and the other has
+   learned nothing. From then on both act, and learn, for as long.
+2. Both want the star, an element of interest at a place, besides the green creeps. No reward is ever paid for it.
+3. The page (`star.js`) runs them in the reader's browser; `experienced` and `with_star` are the same runs in Python.
+"""
+
+import gzip
+import json
+from base64 import b64encode
+from dataclasses import replace
+from html import escape
+from pathlib import Path
+
+import neorl
+from neorl.browser.explorer import text_of
+
+AGENT, TANK = neorl.multimodal(), neorl.WaterWorld()
+SEED = 2  # the distances of both agents to the star, on the page and in the picture, are near the medians of 24 seeds
+LESSON = 100 * 60 * TANK.fps  # steps
+VALENCE = 2.0  # of the star; green creeps have 1, red ones −1
+START = (0.8, 0.2)  # of the star
+SCRIPTS = ("simulator.js", "drawing.js", "movers.js", "settings.js")
+BOOK = Path(__file__).parents[1]
+TITLE = "A tank with an agent, and green and red discs; the path of the agent ends at a star."
+
+
+def with_star(agent, place):
+    """An agent that also wants to be at a place, in board widths from the upper left corner, with all its nodes."""
+    star = neorl.Place(*place)
+    wants = [neorl.Desire(star, node.name, VALENCE) for node in agent.nodes]
+    return replace(agent, desires=(*agent.desires, *wants))
+
+
+def experienced(place=START, lesson=LESSON):
+    """The run of the experienced agent when the reader meets it, with the star at a place: a `neorl.Run`."""
+    learner = neorl.Run(AGENT, TANK, SEED + 1)
+    learner.advance(lesson)
+    run = neorl.Run(with_star(AGENT, place), TANK, SEED)
+    run.transfer(learner)
+    return run
+
+
+def page(lesson=LESSON):
+    """The star's part of a page, as HTML: styles, a picture for readers without scripts, and all that runs it."""
+    explorer = neorl.Explorer({"star": neorl.Condition(AGENT, TANK, lesson, runs=1)})
+    preset, layout = explorer._presets["star"], explorer._layout["plane"]
+    data = {"_engine": explorer._engine, "_layout": {"plane": layout}, "lesson": lesson, "seed": SEED,
+            "valence": VALENCE, "star": dict(zip("xy", START)),
+            "wasm": b64encode(explorer._wasm["plane"]).decode(),
+            **{name: preset[name] for name in ("parameters", "world", "red")}}
+    content = b64encode(gzip.compress(json.dumps(data).encode(), mtime=0)).decode()
+    script = "\n".join([text_of(*SCRIPTS), (BOOK / "star.js").read_text(encoding="utf-8")])
+    markup = (BOOK / "star.html").read_text(encoding="utf-8").replace("{title}", escape(TITLE))
+    return (f'<style>{text_of("widget.css")}</style>\n{markup}'
+            f'<script type="text/plain" class="star-data">{content}</script>\n'
+            f'<script type="module">{script}</script>\n')

@@ -1,0 +1,23 @@
+"""Write what the book's other pages include of the computed ones: claims, rules, errata, contents in pictures, and
+the star."""
+
+from companion.page import report
+from computing.compute import CHAPTERS, ROOT, records
+from computing.record import of_book
+
+from neorl.common.files import write_whole
+from writing import contents, ledger, rules, star
+
+
+def of_claims(paths, chapters):
+    """The texts to include, {name of the file: text}. paths: of records of claims. chapters: the folder of pages."""
+    build, toc = report.load(paths), (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
+    record = of_book(build)
+    return {"claims-rules.md": rules.page(record), "claims-front.html": ledger.front(record),
+            "star.html": star.page(), "errata-table.md": report.errata(),
+            "contents.md": contents.pictures(toc, chapters), "claims-table.md": ledger.page(record, build)}
+
+
+if __name__ == "__main__":
+    for name, text in of_claims(records().values(), CHAPTERS).items():  # last the one that make looks for
+        write_whole(CHAPTERS / name, text.encode())
