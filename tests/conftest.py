@@ -36,6 +36,33 @@ FIRST = ("test_readme", "test_book", "test_claims", "test_statistics",
          "test_variations")
 
 
+# The kernels of nearly all tests, and the modules of those that open pages.
+KERNELS = """from neorl import WaterWorld, forager, multimodal, network_d, place_cells, simulate
+for agent in (place_cells([3]), multimodal([3]), network_d([3]), forager([3])):
+    simulate(agent, WaterWorld(), steps=2, runs=1, progress=False)"""
+MODULES = "from neorl.browser import wasm; wasm.modules()"
+
+
+def pytest_configure(config):
+    """Compile kernels once for all workers, while these collect the tests: each would compile the same ones."""
+    if config.getoption("numprocesses", None):
+        config.compiling = [subprocess.Popen([sys.executable, "-c", KERNELS])]
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_node_collection_finished(node, ids):
+    """Let no test begin before that. Modules are built beside the first tests."""
+    compiling = node.config.compiling
+    if compiling[0].wait() == 0 and len(compiling) == 1 and any("browser" in each for each in ids):
+        compiling.append(subprocess.Popen([sys.executable, "-c", MODULES]))
+
+
+def pytest_unconfigure(config):
+    for process in getattr(config, "compiling", ()):
+        process.terminate()
+        process.wait()
+
+
 def pytest_collection_modifyitems(items):
     """Begin with the files that take longest, lest one is left when all other workers have finished.
 
