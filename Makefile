@@ -3,11 +3,13 @@
 #                                                         JOBS=2 notebooks at a time, of up to 4 GB each
 # make test   run the tests                               WORKERS=4 processes, since tests of pages wait for a browser
 # make package test the package as installed from WHEEL=dist/*.whl, or from one that is built, with ARGS="of pytest"
+# The tests that `make test` leaves out, since they take long, are marked, and each mark has a target:
 # make deep   begin the stored runs of deep learners again; installs their packages, among them PyTorch, into .venv
-# make exact  run the reference runs in every way that must give the same bits, and print which do; PYTHONS="python3.13"
-# make pages  run the pages in a kernel in the ways of their readers, and print which fail; PAGES="paper_a paper_b"
-# make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
+# make exact  run the reference runs in every way that must give the same bits; PYTHONS="python3.13"
+# make pages  run the pages in a kernel in the ways of their readers; PAGES="paper_a paper_b"
 # make fuzz   try random kernels of a user's that write and return wild values; SETTINGS=1000 of them
+#
+# make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
 # make lab    open the notebooks in JupyterLab, which saves pages without outputs
 # make record compute the record that book and README show, in some three core-hours; other pages' claims are of RUNS=100
 # make readme write the recorded claims into the README
@@ -16,18 +18,16 @@
 # make wheel build the wheel to publish, dist/*.whl, which carries the kernels as WebAssembly modules
 # make clean  remove all that these made, and nothing else
 PYTHON ?= python3
-PYTHONS ?=
 WHEEL ?=
-PAGES ?=
 SAMPLE ?= 20
 SEED ?=
-SETTINGS ?= 1000
 RUNS ?= 10
 READING ?= calibrated
 STEPS ?=
 JOBS ?= 2
 WORKERS ?= 4
 BIN := .venv/bin
+DEEP := torch==2.13.0 stable-baselines3==2.9.2 sb3-contrib==2.9.2
 # A relative NEORL_CACHE counts from here, whether or not a recipe starts a shell.
 export PWD := $(CURDIR)
 export PYTHONUNBUFFERED := 1
@@ -50,7 +50,7 @@ page = $(1:%=$(CHAPTERS)/%.ipynb)
 .DEFAULT_GOAL := book
 # Files that are replaced only by complete ones, so make need not remove them when it is interrupted.
 .PRECIOUS: $(HTML) $(call page,$(NAMES))
-.PHONY: book test package deep exact pages verify fuzz lab record readme pictures bench wheel clean FORCE
+.PHONY: book test deep exact pages fuzz package verify lab record readme pictures bench wheel clean FORCE
 
 book: .venv/ready
 	@$(MAKE) --no-print-directory --keep-going --jobs=$(JOBS) $(HTML)
@@ -90,27 +90,17 @@ $(HTML): $(CHAPTERS)/claims-table.md $(shell find book -type f -not -path '$(CHA
 test: .venv/ready
 	$(BIN)/python -m pytest --numprocesses $(WORKERS) --dist loadfile --no-loadscope-reorder $(ARGS)
 
+deep exact pages fuzz: .venv/ready
+	$(if $(filter deep,$@),$(BIN)/python -m pip install --quiet $(DEEP))
+	$(BIN)/python -m pytest --numprocesses $(JOBS) --dist load -m $@ $(ARGS)
+
 # On every system, so without .venv.
 package:
 	rm -rf build
 	$(PYTHON) tests/installation.py "$(WHEEL)" $(ARGS)
 
-# Packages that no extra installs.
-deep: .venv/ready
-	$(BIN)/python -m pip install --quiet torch==2.13.0 stable-baselines3==2.9.2 sb3-contrib==2.9.2
-	$(BIN)/python -m pytest tests/notebooks/test_alternatives.py -k deep_learner -rs
-
-exact: .venv/ready
-	$(BIN)/python tests/exactness.py $(PYTHONS)
-
-pages: .venv/ready
-	$(BIN)/python tests/pages.py $(PAGES)
-
 verify: .venv/ready
 	$(BIN)/python book/computing/verify.py --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
-
-fuzz: .venv/ready
-	$(BIN)/python tests/fuzzed_kernels.py $(SETTINGS)
 
 lab: .venv/ready
 	$(BIN)/jupyter lab --ServerApp.root_dir=. --LabApp.default_url=/lab/tree/notebooks \

@@ -1,11 +1,10 @@
-"""The matrix of exactness: every recorded run (`golden`), repeated in every way that must give the same bits.
+"""The ways in which a recorded run (`golden`) must give the same bits.
 
 A way takes the name of a run and a number of steps, and returns the run's record, or None if the way does not apply to
-the run. `make exact` prints the matrix, with a row per run and a column per way; `make test` checks a part of it.
-Other Pythons get an environment in the cache, with the packages that the core needs as pinned by ``environment.txt``.
+the run. Other Pythons get an environment in the cache, with the packages that the core needs as pinned by
+``environment.txt``.
 """
 
-import argparse
 import hashlib
 import itertools
 import json
@@ -31,7 +30,6 @@ from neorl.kernels.execution import execute
 ROOT = Path(__file__).parents[1]
 RECORD = json.loads(golden.RECORD.read_text())
 OLDEST = 11  # minor version of Python
-HOLDS, FAILS, DOES_NOT_APPLY = "=", "≠", "·"
 
 
 def in_slices(name, steps):
@@ -166,27 +164,18 @@ def other_pythons():
     return [found[minor] for minor in sorted({min([mine, *found]), max([mine, *found])} - {mine})]
 
 
-def environments():
-    """The interpreters of the environments made for the current pins: {version: path}."""
-    return {ready.parent.name.split()[0]: ready.parent / "bin" / "python"
-            for ready in sorted((cache_folder() / "pythons").glob(f"*/{ready_name()}"))}
-
-
-def make_environment(python):
-    """Make an interpreter's environment unless it exists; returns its version. Raises ValueError if it does not run."""
+def environment(python):
+    """The interpreter of an environment with the current pins, made unless it exists. Raises ValueError without one."""
     version = version_of(python)
     if version is None:
         raise ValueError(f"python must be an interpreter of Python that runs, but is {python!r}")
-    if version not in environments():
-        folder = cache_folder() / "pythons" / version
+    folder = cache_folder() / "pythons" / version
+    ready, mine = folder / f"ready-{hashlib.sha256(' '.join(pins()).encode()).hexdigest()[:12]}", folder / "bin/python"
+    if not ready.exists():
         subprocess.run([python, "-m", "venv", "--clear", folder], check=True)
-        subprocess.run([folder / "bin" / "python", "-m", "pip", "install", "--quiet", "--no-deps", *pins()], check=True)
-        (folder / ready_name()).touch()
-    return version
-
-
-def ready_name():
-    return f"ready-{hashlib.sha256(' '.join(pins()).encode()).hexdigest()[:12]}"
+        subprocess.run([mine, "-m", "pip", "install", "--quiet", "--no-deps", *pins()], check=True)
+        ready.touch()
+    return mine
 
 
 def pins():
@@ -194,37 +183,3 @@ def pins():
     needed = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
     names = {re.match(r"[\w-]+", each)[0] for each in needed} | {"llvmlite"}
     return [line for line in (ROOT / "environment.txt").read_text().splitlines() if line.split("==")[0] in names]
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("pythons", nargs="*", help="other interpreters; by default the oldest and the newest found")
-    versions = [make_environment(python) for python in parser.parse_args().pythons or other_pythons()]
-    names = list(RECORD)
-    elsewhere = {"interpreted": (interpreted(names), golden.SHORT),
-                 **{f"Python {version}": (in_a_process(names, golden.LONG, environments()[version]), golden.LONG)
-                    for version in versions}}
-    columns = [*WAYS, *elsewhere]
-    width = max(map(len, names))
-    print(f"{len(names)} runs of {golden.LONG} steps, interpreted {golden.SHORT}, on Python {sys.version.split()[0]}: "
-          f"{HOLDS} the recorded bits, {FAILS} other bits, {DOES_NOT_APPLY} does not apply\n")
-    print(" " * width, *columns, sep="  ")
-    cells = []
-    for name in names:
-        found = {way: (live(name, golden.LONG), golden.LONG) for way, live in WAYS.items()}
-        found |= {way: (those[name], steps) for way, (those, steps) in elsewhere.items()}
-        signs = [sign(name, *found[way]) for way in columns]
-        cells += signs
-        print(name.ljust(width), *(each.center(len(way)) for way, each in zip(columns, signs)), sep="  ", flush=True)
-    failed = cells.count(FAILS)
-    print(f"\n{failed or 'none'} of {len(cells) - cells.count(DOES_NOT_APPLY)} differ")
-    return failed > 0
-
-
-def sign(name, found, steps):
-    """The symbol printed in a cell of the matrix."""
-    return DOES_NOT_APPLY if found is None else HOLDS if found == RECORD[name][str(steps)] else FAILS
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,7 +1,8 @@
 """A user's kernels that write and return wild values bring an error or a result, and never a crash: `fuzzed_kernels`.
 
-``python tests/fuzzed_kernels.py 1000`` runs that many settings, compiled; here a few run as Python functions, where an
-index out of range is an error. Run as a program, this file prints what each way to break a rule of worlds leads to.
+`make fuzz` tries a thousand settings, compiled, in processes of 100 each, since one may crash; `make test` tries a few
+as Python functions, where an index out of range is an error. Run as a program, this file prints what each way to break
+a rule of worlds leads to.
 """
 
 import dataclasses
@@ -108,10 +109,16 @@ def appearance():
     return bool(np.isfinite(run.state.action_value).all())
 
 
-def test_wild_kernels_bring_an_error_or_a_result():
-    done = subprocess.run([sys.executable, Path(__file__).with_name("fuzzed_kernels.py"), "here", "0",
-                           str(2 * len(SETTINGS))], env=os.environ | {"NUMBA_DISABLE_JIT": "1"}, capture_output=True,
-                          text=True)
+COMPILED = int(os.environ.get("SETTINGS", 1_000))
+
+
+@pytest.mark.parametrize("jit, first, count", [(False, 0, 2 * len(SETTINGS)), *(
+    pytest.param(True, first, min(100, COMPILED - first), marks=pytest.mark.fuzz)
+    for first in range(0, COMPILED, 100))])
+def test_wild_kernels_bring_an_error_or_a_result(jit, first, count):
+    program = Path(__file__).with_name("fuzzed_kernels.py")
+    done = subprocess.run([sys.executable, program, str(first), str(count)], capture_output=True, text=True,
+                          env=os.environ | {"NUMBA_DISABLE_JIT": str(int(not jit))})
     assert done.returncode == 0, done.stdout[-3_000:] + done.stderr[-3_000:]
     counts = done.stdout.splitlines()[-1]
     assert "'result': 0" not in counts and "'error': 0" not in counts

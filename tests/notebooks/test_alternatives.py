@@ -135,9 +135,9 @@ def test_every_run_is_stored_once_and_deep_learners_have_three_long_ones_on_each
     assert set(long) == {*product(search.DEEP, (3, 8), range(3))}
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("method", search.DEEP)
 def test_a_short_rerun_of_a_deep_learner_equals_the_start_of_its_stored_run(method):
-    pytest.importorskip("sb3_contrib", reason="deep learners need packages that no extra installs")
     from companion.alternatives.deep_runs import live
     row = next(row for row in LONG if row[:4] == (method, 3, 600_000, 2))
     rewards, _, _ = live(method, SETTINGS[method], 3, 6_000, 0, 2)

@@ -1,4 +1,4 @@
-"""The matrix of pages: every page, run in a real kernel in the ways in which its readers run it.
+"""Every page, run in a real kernel in the ways in which its readers run it: `make pages`.
 
 1. A page runs at a small size, with a cache of its own that shares only compiled kernels; again in the same kernel,
    where it must say the same, but for measured times; then below its experiment alone, with other parameters. It runs
@@ -6,32 +6,24 @@
 2. Below the experiment, cells that draw or write must say what they did before, whatever the parameters are now, unless
    they show what open cells compute there.
 
-`make pages` prints the matrix; `make test` runs the suggested programs alone, and tries many more bad parameters.
+`test_variations.py` runs the suggested programs alone, and other tests many more bad parameters.
 """
 
 import json
 import os
 import re
 import shlex
-import sys
-import tempfile
-import time
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from copy import deepcopy
-from pathlib import Path
 
-sys.path += [str(Path(__file__).parents[1] / folder) for folder in ("book", "notebooks")]
-
-# ruff: noqa: E402
 from computing import excerpts
 import nbformat
+import pytest
 import yaml
 from computing.cells import tags, with_values
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 from nbformat.v4 import new_code_cell, new_notebook
 from page_cells import ALSO_SMALL, NOTEBOOKS, SMALL, computed_below, suggested
-from papermill.cli import _resolve_type as value_of
 from saved_files import share_compiled
 from traitlets.config import Config
 
@@ -56,7 +48,7 @@ MEASURED = {  # the cells that show measured times
     "chapter_4": {"cell-45", "cell-46", "pace"}, "own_world": {"cell-13"},
     "chapter_5": {"cell-35", "claims-of-all"},
     "performance": {"cell-08", "cell-09", "cell-13", "cell-18"}}
-OK, BAD = "ok", (None, {}, float("nan"))
+BAD = None, {}, float("nan")
 RESET = "get_ipython().reset(new_session=True)\n__spec__ = None"  # processes that are spawned look up the latter
 
 
@@ -124,6 +116,8 @@ class Page:
 
     def _injected(self, line):
         """The cells of code as papermill makes them of its arguments, at a small size where these name none."""
+        from papermill.cli import _resolve_type as value_of  # which takes long to import
+
         given, words = {}, iter(shlex.split(line))
         for option in words:
             given |= {next(words): value_of(next(words))} if option == "-p" else yaml.safe_load(next(words))
@@ -157,39 +151,28 @@ def text_of(outputs):
     return re.sub(r"<dc:date>.*?</dc:date>", "", json.dumps(shown))
 
 
-def row_of(name):
-    """A page, what comes of it in each way, {way: "ok" or the failure}, and the seconds that it takes."""
-    began, row = time.monotonic(), {}
-    with tempfile.TemporaryDirectory() as cache:
-        share_compiled(Path(cache))
-        quiet = {"transport": "ipc", "ip": f"{cache}/kernel"}  # over TCP the kernel warns that it is not encrypted
-        client = NotebookClient(new_notebook(), kernel_name="python3", config=Config(KernelManager=quiet))
-        with client.setup_kernel(cwd=str(NOTEBOOKS), env=os.environ | {"NEORL_CACHE": cache}):
-            page = Page(name, client)
-            for way in WAYS:
-                try:
-                    getattr(page, way)()
-                    row[way] = OK
-                except Failure as failure:
-                    row[way] = str(failure)
-    return name, row, time.monotonic() - began
+@pytest.fixture
+def page(request, tmp_path):
+    """A page in a kernel of its own."""
+    share_compiled(tmp_path)
+    quiet = {"transport": "ipc", "ip": f"{tmp_path}/kernel"}  # over TCP the kernel warns that it is not encrypted
+    client = NotebookClient(new_notebook(), kernel_name="python3", config=Config(KernelManager=quiet))
+    with client.setup_kernel(cwd=str(NOTEBOOKS), env=os.environ | {"NEORL_CACHE": str(tmp_path)}):
+        yield Page(request.param, client)
 
 
-def main(names):
-    if unknown := {*names} - {*OTHERS}:
-        sys.exit(f"pages must be among {', '.join(OTHERS)}, but {', '.join(unknown)} is not")
-    width, failures = max(map(len, names)), 0
-    print(" " * width, *WAYS, "seconds", sep="  ", flush=True)
-    with ThreadPoolExecutor(2) as kernels:
-        for done in as_completed(kernels.submit(row_of, name) for name in names):
-            name, row, seconds = done.result()
-            print(name.ljust(width), *((OK if row[way] == OK else "FAILS").center(len(way)) for way in WAYS),
-                  f"{seconds:7.0f}", sep="  ")
-            failed = [f"    {way}: {found}\n" for way, found in row.items() if found != OK]
-            print(*failed, sep="", end="", flush=True)
-            failures += len(failed)
-    return failures > 0
+@pytest.mark.pages
+@pytest.mark.filterwarnings("ignore")  # of the client
+@pytest.mark.parametrize("page", os.environ.get("PAGES", "").split() or OTHERS, indirect=True)
+def test_a_page_runs_in_the_ways_of_its_readers(page):
+    failures = {}
+    for way in WAYS:
+        try:
+            getattr(page, way)()
+        except Failure as failure:
+            failures[way] = str(failure)
+    assert failures == {}
 
 
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:] or [*OTHERS]))
+def test_every_page_is_run_with_other_values():
+    assert {*OTHERS} == {path.stem for path in NOTEBOOKS.glob("*.ipynb")}
