@@ -86,7 +86,7 @@ class View(types.Type):
     def type_of(self, field):
         """The type of an annotation."""
         if field is Record:
-            return from_dtype(self.record)
+            return _type_of_record(self.record)
         if is_tuple(field):
             return _view(field, self.record)
         if not isinstance(field, tuple):
@@ -97,6 +97,7 @@ class View(types.Type):
 
 
 _view = functools.cache(View)
+_type_of_record = functools.cache(from_dtype)  # takes numba ten milliseconds
 
 
 @functools.cache
