@@ -1,18 +1,20 @@
-"""The search for a reading, its table, the conclusions drawn from it, and their figures."""
+"""The table of readings, and the conclusions drawn from it."""
 
 import math
-import time
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy
 
 from companion.thesis import pins
 from companion.thesis.priors import WITHIN
-from companion.study import calibration, calibration_results, calibration_table, calibration_targets, sensitivity
-from companion.study.calibration import design, features
+from companion.study import calibration_results, calibration_table, calibration_targets, sensitivity
 from companion.study.calibration_table import Row, read_table, write_table
 from companion.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
+from companion.study.emulator import features, reading_at
 from neorl import CALIBRATED, Condition, WaterWorld, place_cells
 from companion.thesis.reading import TO_THE_LETTER, Reading
 from companion.thesis.statements import STATEMENTS
@@ -93,104 +95,19 @@ def test_a_claim_holds_if_all_its_targets_do():
     assert row.agreeing == {"A6"} and row.distance == 0 and replace(row, statistics={}).distance == math.inf
 
 
-def truth(reading, name):
-    """Made-up statistics, which agree with all targets where the discount is high and contact is rounded."""
-    target = TARGETS[name]
-    ends = [end for end in (target.low, target.high) if math.isfinite(end)]
-    upward = 1 if math.isfinite(target.low) else -1
-    wanted = sum(ends) / 2 if len(ends) == 2 else ends[0] + 0.1 * upward * target.scale
-    off = max(0.8 - WITHIN["discount"].place(reading.learning.discount), 0) + 0.5 * (reading.world.contact != "rounded")
-    return Measure(wanted - 20 * upward * target.scale * off, 0.1 * target.scale)
+def readings(number):
+    """Readings spread through the priors: a list."""
+    return [reading_at(shares) for shares in scipy.stats.qmc.Sobol(len(WITHIN), rng=0).random(number)]
 
 
-def made_up(rows, group, executor=None):
-    return [replace(row, statistics=row.statistics | {name: truth(row.reading, name) for name in GROUPS[group].targets})
-            for row in rows]
-
-
-def test_a_design_keeps_to_the_text_and_spans_the_priors():
-    readings = design(64)
-    assert readings == design(64)
-    assert design(64, seed=1) != readings
+def test_readings_keep_to_the_text_and_span_the_priors():
+    found = readings(64)
     for name, choice in WITHIN.items():
-        places = [choice.place(reading.choices[name]) for reading in readings]
+        places = [choice.place(reading.choices[name]) for reading in found]
         assert min(places) < 0.1 and max(places) > 0.9
-    assert readings[0] == TO_THE_LETTER.varied(**{name: readings[0].choices[name] for name in WITHIN})
-    found = features(readings)
-    assert found.min() >= 0 and found.max() <= 1 and np.ptp(found, axis=0).min() > 0
-
-
-@pytest.fixture
-def small(monkeypatch):
-    """A small search over made-up statistics that takes no time; the clock advances a second at each reading."""
-    clock = iter(range(10**6))
-    monkeypatch.setattr(time, "monotonic", lambda: float(next(clock)))
-    monkeypatch.setattr(calibration_table, "run", made_up)
-    for name, value in {"DESIGN": 64, "CHUNK": 16, "POOL": 400, "TREES": 30,
-                        "SCREENED": {"layers": 9, "places": 6, "objects": 6, "both": 6, "networks": 3, "single": 3},
-                        "WAVE": {"places": 32, "layers": 32} | dict.fromkeys(tuple(GROUPS)[2:], 16)}.items():
-        monkeypatch.setattr(calibration, name, value)
-
-
-def test_waves_close_in_on_the_readings_that_agree(small):
-    kept = []
-    table = calibration.calibrate(1.0, keep=kept.append)
-    assert len(kept) == 59 and kept[-1] == table  # the clock is read once at the start, and once before each chunk
-    assert [row.seed for row in table] == list(range(len(table)))
-    waves = sorted({row.wave for row in table})
-    assert waves[0] == 0 and len(waves) >= 4
-    design_rows, last = ([row for row in table if row.wave == wave] for wave in (0, waves[-2]))
-    assert sum(row.distance == 0 for row in last) > 0.4 * len(last)
-    assert sum(row.distance == 0 for row in design_rows) < 0.2 * len(design_rows)
-    assert sum(row.complete for row in table if row.wave == 0) >= 16
-    assert sum(row.complete and row.distance == 0 for row in table) > 10
-
-
-def test_the_leading_are_confirmed_with_fresh_seeds_and_more_runs(small):
-    table = calibration.calibrate(0.6)
-    confirmed = calibration.confirm(table, 5, 20)
-    assert confirmed[: len(table)] == table
-    first = calibration_table.leading(table)[:5]
-    assert [row.reading for row in confirmed[-5:]] == [row.reading for row in first]
-    assert {row.runs for row in confirmed[-5:]} == {20} and all(row.complete for row in confirmed[-5:])
-    assert not {row.seed for row in confirmed[-5:]} & {row.seed for row in table}
-    assert {row.wave for row in confirmed[-5:]} == {1 + max(row.wave for row in table)}
-    with pytest.raises(ValueError, match="table has 0 rows"):
-        calibration.confirm([], 5, 20)
-
-
-def test_a_search_between_two_memories_begins_where_it_is_told_and_keeps_to_them_in_both_families(small):
-    start = Reading().varied(learning_rate=0.011, memory=30.0)
-    table = calibration.attempt(calibration.calibrate(0.6), [start, start.varied(memory=200.0)], 6, seed=0)
-    assert [row.runs for row in table[-2:]] == [6, 6] and table[-2].complete and table[-2].reading == start
-    kept = []
-    new = calibration.refine(0.05, table, 6, 0, kept.append, memories=(20.0, 45.0))[len(table) :]
-    assert len(new) == 24 * len(kept) and all(20 <= row.reading.learning.memory <= 45 for row in new)
-    assert [row.reading.object_state for row in new[:24]] == ["self"] * 12 + ["per object"] * 12
-    assert len({row.reading for row in new}) == len(new) and sum(row.complete for row in new[:24]) == 5
-
-
-def test_the_leading_between_two_memories_are_confirmed_and_once_more_if_called_again(small):
-    table = calibration.calibrate(0.6)
-    once = calibration.confirm(table, 3, 20, memories=(20.0, 200.0))
-    again = calibration.confirm(once, 3, 20, memories=(20.0, 200.0))
-    first, second = ([row.reading for row in rows[-3:]] for rows in (once, again))
-    assert first == second and all(20 <= reading.learning.memory <= 200 for reading in first)
-    further = calibration.confirm([*again, replace(table[0], wave=99)], 3, 20, memories=(20.0, 200.0))
-    assert not {row.reading for row in further[-3:]} & {*first}
-    assert first == [row.reading for row in calibration_table.leading(table) if row.reading in first]
-    assert not {row.seed for row in again[-3:]} & {row.seed for row in once}
-
-
-def test_fewer_and_fewer_readings_are_screened_and_the_leading_one_is_run_with_other_scales(small):
-    table = calibration.calibrate(0.6)
-    screened = calibration.screen(table, 12, seed=7)
-    new = screened[len(table) :]
-    assert screened[: len(table)] == table and {row.runs for row in new} == {12}
-    assert {group: sum(group in row.groups for row in new) for group in GROUPS} == calibration.SCREENED
-    leading = next(row for row in calibration_table.leading(screened) if row.runs == 12)
-    scaled = calibration.rescale(screened, [2.0, 4.0], 12)[len(screened) :]
-    assert [(row.seed, row.reading.scale) for row in scaled] == [(leading.seed, 2.0), (leading.seed, 4.0)]
+    assert found[0] == TO_THE_LETTER.varied(**{name: found[0].choices[name] for name in WITHIN})
+    seen = features(found)
+    assert seen.min() >= 0 and seen.max() <= 1 and np.ptp(seen, axis=0).min() > 0
 
 
 def statistics(holding, names=tuple(TARGETS)):
@@ -209,7 +126,7 @@ def statistics(holding, names=tuple(TARGETS)):
 def rows(*claims, points=64):
     """A complete row for each set of claims that hold, with the readings of a design."""
     return [Row(0, i, 2, 3_000, reading, statistics(holding))
-            for i, (reading, holding) in enumerate(zip(design(points), claims))]
+            for i, (reading, holding) in enumerate(zip(readings(points), claims))]
 
 
 def test_a_table_reads_back_exactly(tmp_path):
@@ -224,7 +141,7 @@ def test_a_table_reads_back_exactly(tmp_path):
 
 
 def test_a_row_runs_again_as_it_was(cache_folder):
-    made = [Row(0, 5 + i, 2, 1_500, reading) for i, reading in enumerate(design(2))]
+    made = [Row(0, 5 + i, 2, 1_500, reading) for i, reading in enumerate(readings(2))]
     table = calibration_table.run(made, "networks")
     table[0] = calibration_table.run(table[:1], "layers")[0]
     assert table[0].groups == ("layers", "networks")
@@ -294,7 +211,6 @@ def test_claims_that_exclude_each_other_are_found():
     (pair,) = calibration_results.claims_together(table * 2).apart  # B3 holds too rarely to count
     assert pair == ("A6", "B1", 0, pytest.approx(9))
     assert found.pairs[0] == ("A6", "B1", 0, pytest.approx(4.5)) and ("A6", "B3") in [each[:2] for each in found.pairs]
-    assert found.sets == [(("A6", "A7"), 12), (("A7", "B1"), 12), (("B3",), 2)]
     assert found.both[at("C4"), at("C4")] == 32 and found.rows[at("C4"), at("C4")] == 64
 
 
@@ -324,12 +240,25 @@ def test_a_choice_decides_the_claims_that_flip_clearly_when_it_is_set_back(clear
     assert sensitivity.literal(table) is table[-1] and sensitivity.literal(table[:-1]) is None
 
 
-def test_the_default_is_set_back_choice_by_choice_and_not_twice(small):
-    table = calibration.set_back([], 2, seed=1)
+def test_the_default_is_set_back_choice_by_choice_and_not_twice(monkeypatch):
+    monkeypatch.setattr(calibration_table, "run", lambda rows, group: [
+        replace(row, statistics=row.statistics | statistics(CLAIMS, GROUPS[group].targets)) for row in rows])
+    before = [Row(4, 0, 2, 3_000, Reading())]
+    table = sensitivity.set_back(before, 2)[1:]
     departing = [name for name in WITHIN if Reading().choices[name] != TO_THE_LETTER.choices[name]]
     assert list(sensitivity.setbacks(table)) == departing and sensitivity.literal(table) is table[0]
-    assert {row.seed for row in table} == {1_000}
-    assert len(calibration.set_back(table[:3], 2, seed=1)) == len(table)
+    assert {(row.wave, row.seed, row.runs, row.steps) for row in table} == {(5, 1, 2, 600_000)}
+    assert len(sensitivity.set_back(table[:3], 2)) == len(table)
+
+
+def test_a_row_is_run_again_from_the_command_line(cache_folder, tmp_path):
+    (row,) = calibration_table.run([Row(0, 5, 2, 1_500, Reading())], "places")
+    write_table([row], tmp_path / "table.csv")
+    command = [sys.executable, "notebooks/calibrate.py", "0", "--table", tmp_path / "table.csv"]
+    shown = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+    assert [line.split(",")[0] for line in shown] == ["equal: B3 place", "equal: B4 place"]
+    write_table([replace(row, seed=6)], tmp_path / "table.csv")
+    assert "differs: B3 place" in subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
 def test_the_choice_that_matters_has_all_the_effect():

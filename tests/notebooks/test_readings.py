@@ -5,9 +5,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import scipy
 
 from companion.thesis.priors import BEYOND, PINNED, WITHIN, LogUniform
-from companion.study.calibration import design
+from companion.study.emulator import reading_at
 import neorl
 from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_b, network_c, network_d,
                    place_cells, simulate)
@@ -158,14 +159,12 @@ def test_a_prior_is_uniform_in_the_logarithm_of_its_measure(prior, ends, middle)
     assert prior.ppf(0.0) == pytest.approx(ends[0]) and prior.cdf(ends[0]) == pytest.approx(0, abs=1e-9)
 
 
-def test_a_design_fills_the_priors_evenly_and_any_power_of_two_is_part_of_the_next():
-    readings = design(64)
-    assert readings[:16] == design(16)
+def test_readings_at_even_shares_fill_the_priors_evenly():
+    readings = [reading_at(shares) for shares in scipy.stats.qmc.Sobol(len(WITHIN), rng=0).random(64)]
     assert sum(reading.learning.terminal for reading in readings) == 32
     assert 20 <= sum(reading.object_state == "object" for reading in readings) <= 23
     rates = np.sort([reading.learning.learning_rate for reading in readings])
     np.testing.assert_allclose(np.log(rates / 3e-4) / np.log(0.5 / 3e-4), (np.arange(64) + 0.5) / 64, atol=1 / 60)
-    assert design(16, seed=1) != readings[:16]
     assert len(set(readings)) == 64
 
 

@@ -26,7 +26,6 @@ class Together(NamedTuple):
     rows: np.ndarray  # in which both were measured
     both: np.ndarray  # in which both hold
     expected: np.ndarray  # in which both would hold if they were independent
-    sets: list  # of (claims that hold together, complete rows in which they do), the largest first
 
     @property
     def pairs(self):
@@ -42,17 +41,13 @@ class Together(NamedTuple):
 
 
 def claims_together(table):
-    """Count the rows in which pairs and sets of claims hold together."""
+    """Count the rows in which pairs of claims hold together."""
     tested = np.array([[name in row.tested for name in CLAIMS] for row in table], float)
     held = np.array([[name in row.agreeing for name in CLAIMS] for row in table], float)
     rows, both = tested.T @ tested, held.T @ held
     alone = held.T @ tested  # rows with both measured in which the first holds
     expected = np.divide(alone * alone.T, rows, out=np.zeros(rows.shape), where=rows > 0)
-    found = [row.agreeing for row in nearest(table)]
-    largest = [each for each in set(found) if not any(each < other for other in found)]
-    sets = [(tuple(sorted(each)), sum(each <= other for other in found)) for each in largest]
-    sets.sort(key=lambda entry: (-len(entry[0]), -entry[1], entry[0]))
-    return Together(CLAIMS, rows.astype(int), both.astype(int), expected, sets)
+    return Together(CLAIMS, rows.astype(int), both.astype(int), expected)
 
 
 def best(table):

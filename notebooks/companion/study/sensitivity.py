@@ -14,13 +14,16 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from companion.thesis.priors import WITHIN
-from companion.study.calibration import IN_FULL, Emulator, reading_at
+from companion.study import calibration_table
 from companion.study.calibration_results import best, claims_together
 from companion.study.calibration_table import Row, read_table
-from companion.study.calibration_targets import CLAIMS, TARGETS
-from companion.thesis.reading import TO_THE_LETTER, Reading
+from companion.study.calibration_targets import CLAIMS, GROUPS, TARGETS
+from companion.study.emulator import Emulator, reading_at
+from companion.thesis.priors import WITHIN
+from companion.thesis.reading import LENGTHS, TO_THE_LETTER, Reading
 
+IN_FULL = 48  # of the readings of the design: the first, which were run in every group
+STEPS = max(LENGTHS.values())  # of a run at most
 POINTS = 256  # of the estimate of total effects, a power of two
 EXPLAINED = 0.1  # the least R² on evenly drawn readings at which an emulator counts
 MATTERS = 0.1  # the least total effect of a choice that matters
@@ -72,9 +75,28 @@ def literal(table):
 
 def setbacks(table, reading=Reading()):
     """The complete rows of a reading with one choice set back to the letter: {choice: Row}, the last of each choice."""
-    of = {reading.varied(**{name: TO_THE_LETTER.choices[name]}): name for name in WITHIN
-          if reading.choices[name] != TO_THE_LETTER.choices[name]}
+    of = _departing(reading)
     return {of[row.reading]: row for row in table if row.complete and row.reading in of}
+
+
+def set_back(table, runs):
+    """Run the reading to the letter, and the default with each choice that departs from it set back, in every group.
+
+    Returns the longer table. Readings that it has already are left out; the rows share a seed, since they vary one.
+    """
+    known = {row.reading for row in table if row.complete}
+    wave = 1 + max((row.wave for row in table), default=0)
+    rows = [Row(wave, len(table), runs, STEPS, reading) for reading in (TO_THE_LETTER, *_departing(Reading()))
+            if reading not in known]
+    for group in GROUPS:
+        rows = calibration_table.run(rows, group)
+    return [*table, *rows]
+
+
+def _departing(reading):
+    """A reading with each choice that departs from the letter set back to it: {reading: choice}."""
+    return {reading.varied(**{name: TO_THE_LETTER.choices[name]}): name for name in WITHIN
+            if reading.choices[name] != TO_THE_LETTER.choices[name]}
 
 
 class Flips(NamedTuple):
