@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from companion.alternatives.living import Contestant, learn_nothing
-from companion.alternatives.tabular_learners import ACTIONS
+from companion.alternatives.tabular_learners import ACTIONS, nearest
 from neorl.core.choices import Action
 from neorl.core.scene import ABSENT
 from neorl.kernels.annotations import array
@@ -98,28 +98,10 @@ def towards(x, y, least):
 @kernel
 def act_nearest(setting, memory, state, rules):
     """The action towards the nearest green creep."""
-    scene = state.scene
-    x, y, least = 0.0, 0.0, np.inf
-    for thing in range(scene.kinds.shape[0]):
-        if scene.kinds[thing] == GREEN:
-            dx = scene.things[thing, 0] - scene.position[0]
-            dy = scene.things[thing, 1] - scene.position[1]
-            if dx * dx + dy * dy < least:
-                x, y, least = dx, dy, dx * dx + dy * dy
-    return towards(x, y, 0.0)
-
-
-@inlined_kernel
-def chosen_green(gains, state, width):
-    """The green creep nearest to where the agent's velocity carries it, or −1."""
-    scene, best, least = state.scene, -1, np.inf
-    for thing in range(scene.kinds.shape[0]):
-        if scene.kinds[thing] == GREEN:
-            dx = scene.things[thing, 0] - scene.position[0] - gains.braking * scene.velocity[0]
-            dy = scene.things[thing, 1] - scene.position[1] - gains.braking * scene.velocity[1]
-            if dx * dx + dy * dy < least:
-                best, least = thing, dx * dx + dy * dy
-    return best
+    scene, target = state.scene, nearest(state.scene, GREEN, 0.0)
+    if target < 0:
+        return Action.no_op
+    return towards(scene.things[target, 0] - scene.position[0], scene.things[target, 1] - scene.position[1], 0.0)
 
 
 @inlined_kernel
@@ -153,7 +135,7 @@ def pd_action(gains, state, width, target):
 @kernel
 def act_pd(setting, memory, state, rules):
     """The PD controller's action."""
-    return pd_action(setting, state, rules.width, chosen_green(setting, state, rules.width))
+    return pd_action(setting, state, rules.width, nearest(state.scene, GREEN, setting.braking))
 
 
 @inlined_kernel
@@ -186,8 +168,8 @@ def value_of_plan(plan, world, state, rules, action, hold, target):
     total, weight, first, captured = 0.0, 1.0, action, 0
     for now in range(plan.horizon):
         if now >= hold:
-            action = pd_action(plan.gains, world, rules.width,
-                               target if target >= 0 else chosen_green(plan.gains, world, rules.width))
+            pursued = target if target >= 0 else nearest(world.scene, GREEN, plan.gains.braking)
+            action = pd_action(plan.gains, world, rules.width, pursued)
         if now == 0:
             first = action
         reward, done = step(world, rules, action)

@@ -26,7 +26,7 @@ from companion.alternatives.living import Contestant
 from companion.shared.tabular import exploring_action, learn_q
 from neorl.kernels.annotations import array
 from neorl.kernels.kernel import inlined_kernel, kernel
-from neorl.worlds.waterworld import GREEN
+from neorl.worlds.waterworld import GREEN, RED
 
 ACTIONS = 5  # N, S, E, W and no-op
 HASHED_BITS = 20
@@ -105,27 +105,34 @@ def place_cell(setting, scene, width):
 def nearest_cells(setting, scene, width):
     """The cells of the nearest green creep and the nearest red one as one number, below (cells² + 1)²."""
     none = setting.cells * setting.cells
-    green, red, green_distance, red_distance = none, none, np.inf, np.inf
-    for thing in range(scene.kinds.shape[0]):
-        dx = scene.things[thing, 0] - scene.position[0]
-        dy = scene.things[thing, 1] - scene.position[1]
-        distance = dx * dx + dy * dy
-        if scene.kinds[thing] == GREEN and distance < green_distance:
-            green, green_distance = object_cell(setting, scene, width, thing), distance
-        elif scene.kinds[thing] != GREEN and distance < red_distance:
-            red, red_distance = object_cell(setting, scene, width, thing), distance
+    green, red = nearest(scene, GREEN, 0.0), nearest(scene, RED, 0.0)
+    green = object_cell(setting, scene, width, green) if green >= 0 else none
+    red = object_cell(setting, scene, width, red) if red >= 0 else none
     return green * (none + 1) + red
+
+
+@inlined_kernel
+def nearest(scene, kind, seconds):
+    """The creep of a kind that is nearest to where the agent's velocity carries it in some seconds, or −1."""
+    found, least = -1, np.inf
+    for thing in range(scene.kinds.shape[0]):
+        if scene.kinds[thing] == kind:
+            dx = scene.things[thing, 0] - scene.position[0] - seconds * scene.velocity[0]
+            dy = scene.things[thing, 1] - scene.position[1] - seconds * scene.velocity[1]
+            if dx * dx + dy * dy < least:
+                found, least = thing, dx * dx + dy * dy
+    return found
 
 
 def monolithic(setting):
     """The `Contestant` that treats the whole scene as one state."""
-    return Contestant(act_monolithic, learn_monolithic, setting, lambda world, stream: new_memory(
+    return Contestant(*MONOLITHIC, setting, lambda world, stream: new_memory(
         world, stream, 2**HASHED_BITS, ACTIONS, setting.first))
 
 
 def joint_cells(setting):
     """The `Contestant` whose state is the cells of the nearest creep of either kind and of its own velocity."""
-    return Contestant(act_joint, learn_joint, setting, lambda world, stream: new_memory(
+    return Contestant(*JOINT, setting, lambda world, stream: new_memory(
         world, stream, _joint_rows(setting), ACTIONS, setting.first))
 
 
@@ -156,7 +163,8 @@ def _joint_rows(setting):
 
 
 @inlined_kernel
-def monolithic_row(setting, codes, scene, width):
+def monolithic_row(setting, memory, scene, width):
+    codes = memory.codes
     for thing in range(codes.shape[0]):
         code = object_cell(setting, scene, width, thing) * 2 + scene.kinds[thing]
         at = thing
@@ -171,7 +179,7 @@ def monolithic_row(setting, codes, scene, width):
 
 
 @inlined_kernel
-def joint_row(setting, scene, width):
+def joint_row(setting, memory, scene, width):
     return (nearest_cells(setting, scene, width) * setting.speeds * setting.speeds
             + velocity_cell(setting, scene, width))
 
@@ -182,32 +190,23 @@ def head_row(setting, scene, width, thing):
     return row * setting.speeds * setting.speeds + velocity_cell(setting, scene, width)
 
 
-@kernel
-def act_monolithic(setting, memory, state, rules):
-    """ε-greedy in the state of the whole scene."""
-    memory.rows[0] = monolithic_row(setting, memory.codes, state.scene, rules.width)
-    return exploring_action(memory.table[memory.rows[0]], setting.exploration, memory.stream)
+def one_learner(row_of):
+    """The kernels, act and learn, of Q-learning in the state of which `row_of` gives the row of the table."""
+
+    @kernel
+    def act(setting, memory, state, rules):
+        memory.rows[0] = row_of(setting, memory, state.scene, rules.width)
+        return exploring_action(memory.table[memory.rows[0]], setting.exploration, memory.stream)
+
+    @kernel
+    def learn(setting, memory, state, rules, action, reward, restarted):
+        row_t = row_of(setting, memory, state.scene, rules.width)
+        learn_q(memory.table, memory.rows[0], action, reward, row_t, False, setting.learning_rate, setting.discount)
+
+    return act, learn
 
 
-@kernel
-def learn_monolithic(setting, memory, state, rules, action, reward, restarted):
-    """One Q-learning update of the state before the step."""
-    row_t = monolithic_row(setting, memory.codes, state.scene, rules.width)
-    learn_q(memory.table, memory.rows[0], action, reward, row_t, False, setting.learning_rate, setting.discount)
-
-
-@kernel
-def act_joint(setting, memory, state, rules):
-    """ε-greedy in the state of the nearest creeps."""
-    memory.rows[0] = joint_row(setting, state.scene, rules.width)
-    return exploring_action(memory.table[memory.rows[0]], setting.exploration, memory.stream)
-
-
-@kernel
-def learn_joint(setting, memory, state, rules, action, reward, restarted):
-    """One Q-learning update of the state before the step."""
-    learn_q(memory.table, memory.rows[0], action, reward, joint_row(setting, state.scene, rules.width), False,
-            setting.learning_rate, setting.discount)
+MONOLITHIC, JOINT = one_learner(monolithic_row), one_learner(joint_row)
 
 
 @kernel
@@ -247,7 +246,7 @@ def worth(memory, row, policy, action, green, red):
 @kernel
 def act_features(setting, memory, state, rules):
     """ε-greedy by generalised policy improvement."""
-    row = joint_row(setting, state.scene, rules.width)
+    row = joint_row(setting, memory, state.scene, rules.width)
     memory.rows[0] = row
     for action in range(ACTIONS):
         memory.value[action] = -np.inf
@@ -268,7 +267,7 @@ def learn_features(setting, memory, state, rules, action, reward, restarted):
     error = WORTH_RATE * (reward - memory.weights[0] * green_t - memory.weights[1] * red_t)
     memory.weights[0] += error * green_t
     memory.weights[1] += error * red_t
-    row_t = joint_row(setting, state.scene, rules.width)
+    row_t = joint_row(setting, memory, state.scene, rules.width)
     for policy in range(POLICIES):
         green, red = 0.0 if policy == 1 else 1.0, 0.0 if policy == 0 else -1.0
         best = 0

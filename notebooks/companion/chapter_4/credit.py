@@ -21,6 +21,7 @@ from neorl.agents.rules import CALIBRATED, Learning
 from neorl.core.choices import Credit
 from neorl.core.learning import UNIT, ZERO, MapValues, Order, Rule, learn_all_goals, learn_one_goal
 from neorl.core.stream import randint, new_stream, uniform
+from neorl.kernels.annotations import array
 from neorl.kernels.execution import execute
 from neorl.kernels.kernel import kernel
 
@@ -48,6 +49,20 @@ class Chamber(NamedTuple):
     bell: float = 0.1
 
 
+class Learner(NamedTuple):
+    """How an agent in a chamber learns, and what it has learned; arrays of events are working memory."""
+
+    by_step: bool
+    bootstrap: bool
+    credit: int
+    rate: np.float32
+    rule: Rule
+    learned: MapValues
+    counts: array("int64", N_EVENTS)
+    occurs: array("bool", N_EVENTS)
+    rates: array("float32", N_EVENTS)
+
+
 def learn_in(chamber, learning, visits, runs, seed=0):
     """Learn the values of a chamber's events for either exit: float32 (runs, visits, 4, 2), after each visit.
 
@@ -55,17 +70,16 @@ def learn_in(chamber, learning, visits, runs, seed=0):
     Run k is the same for any number of runs, and has the same stream of events under any ``learning``.
     """
     values = np.zeros((runs, visits, N_EVENTS, 2), np.float32)
-    by_step, credit = learning.update_on == "step", int(Credit[learning.credit])
-    rate = np.float32(learning.learning_rate)
+    by_step, rate = learning.update_on == "step", np.float32(learning.learning_rate)
     absent_rate = ZERO if by_step else rate * np.float32(learning.absent_decay)
     rule = Rule(np.float32(learning.discount), learning.terminal, absent_rate, learning.absent_form == "away")
+    chamber = chamber._replace(hold=float(chamber.hold))
     for run in range(runs):
-        stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
         learned = MapValues(np.zeros(CELLS * N_EVENTS * CELLS, np.float32), 0, CELLS, N_EVENTS,
                             np.tile([0, CELLS], (CELLS, 1)), np.zeros(CELLS, np.float32))
-        execute(_live_in, chamber._replace(hold=float(chamber.hold)), stream, by_step, learning.bootstrap, credit, rate,
-                rule, learned, np.zeros(N_EVENTS, np.int64), np.zeros(N_EVENTS, np.bool_),
-                np.zeros(N_EVENTS, np.float32), values[run])
+        learner = Learner(by_step, learning.bootstrap, int(Credit[learning.credit]), rate, rule, learned,
+                          *(np.zeros(N_EVENTS, kind) for kind in (np.int64, np.bool_, np.float32)))
+        execute(_live_in, chamber, learner, new_stream(np.random.SeedSequence(seed, spawn_key=(run,))), values[run])
     return values
 
 
@@ -83,8 +97,9 @@ def lead_of_cause(values):
 
 
 @kernel
-def _live_in(chamber, stream, by_step, bootstrap, credit, learning_rate, rule, learned, counts, occurs, rates, values):
+def _live_in(chamber, learner, stream, values):
     """Live a visit for each row of `values`, and store the chamber's values after it there."""
+    counts, occurs, q = learner.counts, learner.occurs, learner.learned.q
     over = True
     lever = 0
     for visit in range(values.shape[0]):
@@ -104,26 +119,33 @@ def _live_in(chamber, stream, by_step, bootstrap, credit, learning_rate, rule, l
                 opening = 1 + lever
             if opening > 0 and wait == 0:
                 cell = opening
-            if by_step:
+            if learner.by_step:
                 for event in range(N_EVENTS):
-                    rates[event] = learning_rate if occurs[event] else ZERO
-                learn_all_goals(learned, rule, 0, cell, rates)
+                    learner.rates[event] = learner.rate if occurs[event] else ZERO
+                learn_all_goals(learner.learned, learner.rule, 0, cell, learner.rates)
             over = uniform(stream) * chamber.hold < 1.0
-        if not by_step:
-            steps = counts[0] + counts[1]  # one of the levers is pressed at every step
-            for event in range(N_EVENTS):
-                share = np.float32(counts[event]) / np.float32(steps)
-                if credit == Credit.happened:
-                    share = UNIT if counts[event] > 0 else ZERO
-                elif credit == Credit.last:
-                    share = UNIT if occurs[event] else ZERO
-                elif credit == Credit.count:
-                    share = np.float32(counts[event])
-                rates[event] = min(learning_rate * share, UNIT)
-            if bootstrap:
-                learn_all_goals(learned, rule, 0, cell, rates)
-            else:
-                learn_one_goal(learned, Order(np.uint64(0), np.uint64(1), np.uint64(CELLS)), rule, 0, cell, rates)
+        if not learner.by_step:
+            _learn_from_visit(learner, cell)
         for event in range(N_EVENTS):
-            values[visit, event, 0] = learned.q[event * CELLS + 1]
-            values[visit, event, 1] = learned.q[event * CELLS + 2]
+            values[visit, event, 0], values[visit, event, 1] = q[event * CELLS + 1], q[event * CELLS + 2]
+
+
+@kernel
+def _learn_from_visit(learner, cell):
+    """Learn from leaving the chamber through an exit into a cell."""
+    steps = learner.counts[0] + learner.counts[1]  # one of the levers is pressed at every step
+    for event in range(N_EVENTS):
+        count = learner.counts[event]
+        share = np.float32(count) / np.float32(steps)
+        if learner.credit == Credit.happened:
+            share = UNIT if count > 0 else ZERO
+        elif learner.credit == Credit.last:
+            share = UNIT if learner.occurs[event] else ZERO
+        elif learner.credit == Credit.count:
+            share = np.float32(count)
+        learner.rates[event] = min(learner.rate * share, UNIT)
+    if learner.bootstrap:
+        learn_all_goals(learner.learned, learner.rule, 0, cell, learner.rates)
+    else:
+        order = Order(np.uint64(0), np.uint64(1), np.uint64(CELLS))
+        learn_one_goal(learner.learned, order, learner.rule, 0, cell, learner.rates)
