@@ -30,7 +30,7 @@ OF_OBJECTS: dict[str, Any] = {"object_state": "per object", "object_reach": 0.0,
 PLACE_GAIN, SCALE = 2.0, 36.16  # of place cells in paper B; of the desire vectors of paper C, in board widths
 OF_NODES = ("weighting", "tiled_fraction", *OF_OBJECTS)  # choices that are no field of `Agent`
 # `choices` of the reading to the letter, and the scale of its desire vectors. What the text prints or pins, and where
-# it leaves more, the simplest or the middle of a prior, see `notebooks/companion/thesis/pins.py`.
+# it leaves more, the simplest or the middle of a prior, see `notebooks/companion/thesis/pins.toml`.
 TO_THE_LETTER: dict[str, Any] = {
     "learning": rules.TO_THE_LETTER, "shared_cell": "once", "resets": "unnoticed", "weighting": "resolution",
     "object_state": "self", "object_reach": 0.0, "object_tiled_fraction": 1.0, "object_beyond": "outermost",

@@ -8,12 +8,14 @@ shares. `book/writing/ledger.py` makes the page of all claims from the records.
 
 import json
 import re
+import tomllib
 from collections import Counter
+from importlib import resources
 
 import numpy as np
 
+from companion import thesis
 from companion.page import wording
-from companion.thesis.errata import ERRATA
 from companion.page.marks import DECIDED, NOT_COMPUTED, leads, legend, symbol
 from companion.page.opening import link
 from companion.thesis.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
@@ -57,7 +59,9 @@ def comparison(judged):
 
 def errata(place=""):
     """The errata of the source as a Markdown table: all, or those of a place such as "paper A"."""
-    rows = wording.table(["Where", "The thesis says", "Correct"], [each for each in ERRATA if place in each.place])
+    listed = tomllib.loads((resources.files(thesis) / "errata.toml").read_text("utf-8"))["erratum"]
+    rows = wording.table(["Where", "The thesis says", "Correct"],
+                         [each.values() for each in listed if place in each["place"]])
     return re.sub(r"\^([A-Z]+)", r"<sup>\1</sup>", rows)
 
 

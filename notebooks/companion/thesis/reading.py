@@ -1,6 +1,6 @@
 """A reading of the thesis: a value for every choice, the agents and experiments that follow, and their judgement.
 
-1. A `Reading` makes every choice that the text pins or leaves open (`notebooks/companion/thesis/pins.py`).
+1. A `Reading` makes every choice that the text pins or leaves open (`notebooks/companion/thesis/pins.toml`).
 2. Its *conditions* are the experiments of the papers under it, in groups, cheap ones first.
 3. The rules of `companion.thesis.claims` judge it, on every claim for which the available conditions suffice.
 """
