@@ -21,10 +21,12 @@ SIMULATE = """from pathlib import Path
 from IPython.display import SVG
 import neorl
 from companion.page import report
-result = neorl.simulate(neorl.place_cells([3]), neorl.WaterWorld(), steps=10_000, runs=runs, seed={seed},
-                        cache=True, progress=False)
-lines = "".join(f"<path d='M{{k}} 0V{{abs(paid):.0f}}'/>" for k, paid in enumerate(result.rewards[:, ::4].ravel()))
-print(f"{{result.totals.sum():.6f}}")"""
+result = neorl.simulate(neorl.place_cells([3]), neorl.WaterWorld(), steps=10_000, runs=runs, cache=True, progress=False)
+lines = "".join(f"<path d='M{k} 0V{abs(paid):.0f}'/>" for k, paid in enumerate(result.rewards[:, ::4].ravel()))
+print(f"{result.totals.sum():.6f}")"""
+REPEAT = """from IPython.display import SVG
+from companion.page import report
+lines = "".join(f"<path d='M{k} 0V{k % 7}'/>" for k in range(200))"""
 DRAW = """SVG(f"<svg xmlns='http://www.w3.org/2000/svg' width='75pt' height='30pt'>{lines}<!--{lines * 80}--></svg>")"""
 FIND_SHARES = "report.save('assumptions', shares={'A2': {'agrees': 1, 'measured': 4}})"
 CONCLUDE = """from companion.page import report
@@ -61,8 +63,8 @@ def make_tree(tree):
                           "book/_toc.yml": TOC, "book/index.md": INDEX, "book/running.md": "# Running it\n",
                           "book/glossary.md": "# Glossary\n\n```{glossary}\nmap\n  Cells.\n```\n"}.items():
         (tree / name).write_text(content)
-    write_notebook(tree, "assumptions", SIMULATE.format(seed=0), DRAW, FIND_SHARES)
-    write_notebook(tree, "paper_a", SIMULATE.format(seed=1), DRAW, "report.save('paper_a')")
+    write_notebook(tree, "assumptions", SIMULATE, DRAW, FIND_SHARES)
+    write_notebook(tree, "paper_a", REPEAT, DRAW, "report.save('paper_a')")
     write_notebook(tree, "chapter_5", CONCLUDE)
     return tree
 

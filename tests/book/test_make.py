@@ -26,9 +26,8 @@ def finished(tmp_path_factory):
     code, said = small_book.build(tree)
     assert code == 0, said
     small_book.assert_no_half_page(tree)
-    for seed, name in enumerate(("assumptions", "paper_a")):
-        alone = simulate(place_cells([3]), WaterWorld(), steps=10_000, runs=2, seed=seed, progress=False)
-        assert f"{alone.totals.sum():.6f}" in small_book.pages(tree)[f"chapters/{name}.html"]
+    alone = simulate(place_cells([3]), WaterWorld(), steps=10_000, runs=2, progress=False)
+    assert f"{alone.totals.sum():.6f}" in small_book.pages(tree)["chapters/assumptions.html"]
     return tree
 
 
@@ -112,11 +111,12 @@ def test_a_full_disk_leaves_the_last_book_as_it_was(finished, mount, tmp_path):
     tree = disk / "tree"
     subprocess.run(["cp", "--archive", finished, tree], check=True)
     book = small_book.pages(tree)
+    small_book.write_notebook(tree, "paper_a", "print('changed')")
     leave_room(disk, 9_000_000)
-    code, said = small_book.build(tree, runs=3)
+    code, said = small_book.build(tree)
     assert code != 0 and re.search("No space left on device", said), said
     small_book.assert_no_half_page(tree)
     assert small_book.pages(tree) == book
     leave_room(disk, 100_000_000)
-    code, said = small_book.build(tree, runs=3)
+    code, said = small_book.build(tree)
     assert code == 0 and small_book.pages(tree) != book, said

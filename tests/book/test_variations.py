@@ -10,11 +10,11 @@ import sys
 import pytest
 from computing.cells import of_page
 from nbformat.v4 import new_code_cell
-from page_cells import computed_below, suggested
+from page_cells import ALSO_SMALL, computed_below, suggested
 from computing.programs import SAVE, program
 from test_notebooks import NOTEBOOKS
 
-SMALL = {"runs": 1, "steps": 3_000}
+SMALL = {"runs": 1, "steps": 1_000}
 SUGGESTED = {f"{page}-{number}": (page, text) for page in NOTEBOOKS
              for number, text in enumerate(suggested(page, "Variations to try")[0], 1)}
 # Programs that only the matrix runs, `make pages`.
@@ -35,7 +35,7 @@ def shared_functions():
 @pytest.mark.parametrize("name", [name for name in SUGGESTED if name not in LONG])
 def test_a_suggested_program_runs_with_what_it_needs_of_its_page(name):
     page, text = SUGGESTED[name]
-    cells = of_page(copy.deepcopy(NOTEBOOKS[page].cells), SMALL)
+    cells = of_page(copy.deepcopy(NOTEBOOKS[page].cells), SMALL | ALSO_SMALL.get(page, {}))
     cells.append(new_code_cell(cut_down(text), metadata={"mystnb": {"figure": {"name": name}}}))
     before = shared_functions()
     exec(compile(program(cells, name).removesuffix(SAVE.format(name=name)), name, "exec"), {"__name__": f"of_{page}"})

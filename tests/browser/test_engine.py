@@ -215,15 +215,15 @@ def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
 @pytest.mark.parametrize("object_state", ["object", "self", "per object"])
 def test_a_second_agent_obeys_commands_on_the_same_creeps(ask, object_state):
     agent = network_d([4, 5], object_state=object_state)
-    actions = np.random.default_rng(0).integers(0, 5, 1_500).tolist()
-    frame = ask(advance(STEPS), *(each for action in actions
-                                  for each in ({"type": "play", "action": action}, advance(1))),
+    actions, each = np.random.default_rng(0).integers(0, 5, 300).tolist(), 5  # steps by an action
+    frame = ask(advance(STEPS), *(request for action in actions
+                                  for request in ({"type": "play", "action": action}, advance(each))),
                 last=1, parameters=_parameters(agent, TANK))[-1]
     run = Run(agent, TANK, SEED, K)
     run.advance(STEPS)
     second = run.world_state.scene._replace(position=np.full(2, 0.1 * TANK.width), velocity=np.zeros(2))
     paid, touched = 0.0, 0
-    for action in actions:
+    for action in np.repeat(actions, each).tolist():
         run.advance(1)
         board = run.world_state
         paid += execute(step_second, run._record, run._memory, board.scene, CALLS, board, TANK.rules, second,
