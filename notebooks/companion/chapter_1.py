@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
-from companion.page.style import UNDER_WHITE
+from companion.page.panels import UNDER_WHITE
 from neorl.drawing.boards import inside
 from neorl.drawing.style import AGENT, GREEN, INK, RED
 

@@ -9,20 +9,17 @@
 import numpy as np
 
 from companion.page.parameters import FINEST
-from companion.page.style import FILL, mark
+from companion.page.panels import FILL, mark
 from companion.page.wording import table
 from companion.page.thesis_figures import mark_levels
 from neorl.core.horde import as_vectors, superpose
-from neorl.core.maps import NresMap
-from neorl.core.scene import CARDINAL
+from neorl import CARDINAL, NresMap, Run, estimate
 from neorl.drawing.curves import draw_sums
 from neorl.drawing.style import GREEN, INK, RED, looks
 from neorl.drawing.value_maps import draw_cells, draw_values
 from companion.thesis.reading import LAYERS, SINGLE
 from companion.thesis.statements import STATEMENTS
-from neorl.statistics import estimate
 from companion.thesis.verdict import FINAL
-from neorl.experiments.run import Run
 
 N_CREEPS = 8  # of the paper
 

@@ -11,7 +11,7 @@ import scipy
 
 from companion.thesis import pins
 from companion.thesis.priors import WITHIN
-from companion.study import calibration_results, calibration_table, calibration_targets, sensitivity
+from companion.study import calibration_table, calibration_targets, sensitivity
 from companion.study.calibration_table import Row, read_table, write_table
 from companion.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
 from companion.study.emulator import features, reading_at
@@ -152,7 +152,7 @@ def test_a_row_runs_again_as_it_was(cache_folder):
 
 def test_the_table_of_this_package_has_the_default_as_its_best_reading_and_runs_again_as_it_was(cache_folder):
     table = read_table()
-    best = calibration_results.best(table)
+    best = calibration_table.best(table)
     assert best.reading == Reading() and best.reading.learning == CALIBRATED
     assert len(table) >= 1_000 and sum(row.complete for row in table) >= 70
     assert not any(pins.broken(row.reading) for row in table)
@@ -164,9 +164,9 @@ def test_the_table_of_this_package_has_the_default_as_its_best_reading_and_runs_
 
 def test_the_best_is_a_confirmed_row_and_a_reading_counts_as_it_was_confirmed():
     lucky, honest = rows(CLAIMS, {"A6"})
-    assert calibration_results.best([lucky, honest]) == lucky
+    assert calibration_table.best([lucky, honest]) == lucky
     confirmed = replace(lucky, seed=9, runs=20, statistics=statistics({"A7"}))
-    assert calibration_results.best([lucky, honest, confirmed]) == confirmed
+    assert calibration_table.best([lucky, honest, confirmed]) == confirmed
     assert calibration_table.leading([honest, lucky]) == [lucky, honest]
     assert calibration_table.nearest([lucky, confirmed, honest]) == sorted([confirmed, honest],
                                                                            key=lambda row: row.distance)
@@ -179,18 +179,18 @@ def test_confirmations_of_a_reading_are_pooled_and_the_best_is_one_confirmed_mos
     pooled, left = sorted(calibration_table.nearest([found, first, once, second]), key=lambda row: -row.runs)
     assert pooled == replace(second, runs=40, statistics={name: Measure(1.5, 0.25) for name in TARGETS})
     once = replace(once, runs=20)
-    assert left.reading == once.reading and calibration_results.best([first, once]) == once
-    assert calibration_results.best([first, second, once]) == pooled
+    assert left.reading == once.reading and calibration_table.best([first, once]) == once
+    assert calibration_table.best([first, second, once]) == pooled
 
 
 def test_among_equals_the_book_keeps_its_reading_or_else_the_nearest_is_best():
     near, far, other = (replace(row, runs=20) for row in rows({"A6", "A7"}, {"B3", "B4"}, {"A6"}))
     near, far = sorted([near, far], key=lambda row: row.distance)
-    assert near.distance < far.distance and calibration_results.equals([far, other, near]) == [near, far]
-    assert calibration_results.best([far, other, near]) == near
+    assert near.distance < far.distance and calibration_table.equals([far, other, near]) == [near, far]
+    assert calibration_table.best([far, other, near]) == near
     kept = replace(far, reading=Reading())
-    assert calibration_results.best([kept, other, near]) == kept
-    assert calibration_results.best([replace(other, reading=Reading()), near]) == near
+    assert calibration_table.best([kept, other, near]) == kept
+    assert calibration_table.best([replace(other, reading=Reading()), near]) == near
 
 
 def test_shares_at_the_papers_lengths_are_of_readings_that_nothing_has_chosen():
@@ -203,12 +203,12 @@ def test_shares_at_the_papers_lengths_are_of_readings_that_nothing_has_chosen():
 def test_claims_that_exclude_each_other_are_found():
     table = rows(*[{"A6", "A7"}] * 12, *[{"B1", "A7"}] * 12, *[{"B3"}] * 2, *[set()] * 6)
     table += [replace(row, statistics=statistics({"C4"}, GROUPS["networks"].targets)) for row in table]  # not complete
-    found = calibration_results.claims_together(table)
+    found = calibration_table.claims_together(table)
     at = CLAIMS.index
     assert found.both[at("A6"), at("A7")] == 12 and found.rows[at("A6"), at("A7")] == 32
     assert found.both[at("A6"), at("B1")] == 0 and found.expected[at("A6"), at("B1")] == pytest.approx(4.5)
     assert found.apart == []
-    (pair,) = calibration_results.claims_together(table * 2).apart  # B3 holds too rarely to count
+    (pair,) = calibration_table.claims_together(table * 2).apart  # B3 holds too rarely to count
     assert pair == ("A6", "B1", 0, pytest.approx(9))
     assert found.pairs[0] == ("A6", "B1", 0, pytest.approx(4.5)) and ("A6", "B3") in [each[:2] for each in found.pairs]
     assert found.both[at("C4"), at("C4")] == 32 and found.rows[at("C4"), at("C4")] == 64

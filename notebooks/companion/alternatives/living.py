@@ -22,12 +22,10 @@ from neorl.agents.embodiment import embodied
 from neorl.common.files import write_whole
 from neorl.core.building import n_bytes
 from neorl.core.stream import new_stream
-from neorl.experiments.run import Run
+from neorl import Run, WaterWorld, execute
 from neorl.kernels.annotations import arrays
-from neorl.kernels.execution import execute
 from neorl.kernels.kernel import inlined, kernel
 from neorl.worlds import waterworld
-from neorl.worlds.waterworld import WaterWorld
 
 BOARDS = {creeps: WaterWorld(n_creeps=creeps) for creeps in (3, 8)}
 FPS, BINS = BOARDS[3].fps, 50

@@ -16,10 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from companion.alternatives.search import drawn
-from neorl.agents.beyond import forager
-from neorl.agents.rules import Contacts
-from neorl.experiments.simulation import simulate
-from neorl.worlds.waterworld import WaterWorld
+from neorl import Contacts, WaterWorld, forager, simulate
 
 SEED = 1_000
 FORAGERS, NETWORKS = (Path(__file__).with_name(name) for name in ("search.json", "networks.json"))

@@ -10,7 +10,7 @@ from companion.shared.grid_figures import draw_grid, draw_policy, new_grids
 from companion.page.panels import add_arrow, add_curves
 from neorl.drawing.boards import new_boards
 from neorl.drawing.curves import draw_curves
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, letters, name_ends
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, letters, name_ends, width_of_figures
 from neorl.statistics import mean_band
 
 LOW_PANEL = 0.17  # the room for a curve's name, as a share of the height of a low panel
@@ -21,7 +21,7 @@ def draw_plan(maze):
     """The plan of a `Maze`: the true path from the start to the food box, the blinds, and the doors across the path."""
     path, places = maze.places[: maze.goal + 1], maze.places
     width, height = np.ptp(places, axis=0) + 1.2
-    inches, _ = plt.rcParams["figure.figsize"]
+    inches = width_of_figures()
     axes = plt.figure(figsize=(inches, inches * height / width)).add_subplot(aspect="equal")
     axes.axis("off")
     axes.invert_yaxis()
@@ -40,7 +40,7 @@ def draw_plan(maze):
 
 def draw_errors(by_learner, first_reward):
     """Errors per day of the three groups, one panel per learner: {learner: {group: `Record`}}, with 95 % intervals."""
-    width, _ = plt.rcParams["figure.figsize"]
+    width = width_of_figures()
     figure, grid = plt.subplots(len(by_learner), sharex=True, sharey=True, squeeze=False,
                                 figsize=(width, 1.9 * len(by_learner)))
     for axes, (learner, groups) in zip(grid[:, 0], by_learner.items()):
@@ -94,7 +94,7 @@ def draw_motives(grid, values, marks):
 def draw_action_potential(axon, reversals):
     """The potential of an axon, with reversal potentials {name: mV}, and its gates."""
     time, potential, *gates = axon
-    width, _ = plt.rcParams["figure.figsize"]
+    width = width_of_figures()
     _, (top, bottom) = plt.subplots(2, sharex=True, figsize=(width, 1.05 * width), height_ratios=(3, 2))
     for name, level in reversals.items():
         top.axhline(level, color=INK, linewidth=0.8, linestyle=":")
@@ -107,7 +107,7 @@ def draw_action_potential(axon, reversals):
 
 def draw_parts(time, inflow, potential, spikes, answers, threshold):
     """The signals in the four parts of a neuron over time, one panel each."""
-    width, _ = plt.rcParams["figure.figsize"]
+    width = width_of_figures()
     _, panels = plt.subplots(4, sharex=True, figsize=(width, 1.1 * width), height_ratios=(3, 3, 1, 3))
     dendrite, soma, axon, synapse = panels
     dendrite.plot(time, inflow, color=CURVES[5], linewidth=1.0)
@@ -135,7 +135,7 @@ def draw_frames(point, heading, distance, bearing):
 
     heading: radians from north by way of east. bearing: radians from the axis to the right, counter-clockwise.
     """
-    width, _ = plt.rcParams["figure.figsize"]
+    width = width_of_figures()
     _, (left, right) = plt.subplots(1, 2, figsize=(width, 0.62 * width))
     reach = 1.15 * max(np.linalg.norm(point), distance)
     for axes in (left, right):
@@ -166,7 +166,7 @@ def draw_frames(point, heading, distance, bearing):
 
 def draw_landmark(seconds, places, heading, landmark, allocentric, seen):
     """An animal's path past a landmark, and the landmark's vector in both frames."""
-    width, _ = plt.rcParams["figure.figsize"]
+    width = width_of_figures()
     figure = plt.figure(figsize=(width, 1.05 * width))
     scene, outer, inner = figure.subplots(3, height_ratios=(4, 3, 3))
     every = max(1, len(seconds) // 16)
@@ -223,7 +223,7 @@ def _draw_rate(axes, image, title):
 
 def draw_tuning_curves(direction, speed, fastest):
     """Rates over direction, as a polar plot, and over speed: {name: (bins,)} each; speeds up to ``fastest``."""
-    width, _ = plt.rcParams["figure.figsize"]
+    width = width_of_figures()
     figure = plt.figure(figsize=(width, 1.3 * width))
     around, along = figure.add_subplot(211, projection="polar"), figure.add_subplot(212)
     rim = 1.2 * np.nanmax([*direction.values()])

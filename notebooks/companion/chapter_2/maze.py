@@ -25,21 +25,16 @@ import numpy as np
 
 from companion.shared.grid import MOVES
 from companion.shared.tabular import Rates, exploring_action, greedy_action, learn_q
-from neorl.agents.agent import Agent, Desire, Node
+from neorl import ABSENT, Actions, Agent, Axis, Desire, Learning, Modality, Node, Policy, Scene, execute, kernel
 from neorl.agents.embodiment import embodied, life_of
 from neorl.agents.learner import Surroundings
-from neorl.agents.rules import Learning, Policy
 from neorl.common import checks
 from neorl.core.building import with_values
 from neorl.core.functions import Life
 from neorl.core.layout import Memory
 from neorl.core.layout import Record as AgentRecord
-from neorl.core.modality import Axis, Modality
-from neorl.core.scene import ABSENT, Actions, Scene
 from neorl.core.stream import new_stream
 from neorl.kernels.annotations import array, new_tuple
-from neorl.kernels.execution import execute
-from neorl.kernels.kernel import kernel
 from neorl.statistics import Estimate, difference, estimate
 
 LEARNERS = ("neoRL", "Q-learning", "Sarsa(λ)")

@@ -1,13 +1,11 @@
 """Kinds of cells, and their tuning, measured from their spikes while an animal roams a box.
 
-1. *Trajectory*: the velocity is an Ornstein-Uhlenbeck process along each axis, and walls reflect it, so that the animal
-   covers the box uniformly. The box is a unit square, of 1 m, say; y points south as everywhere in neorl.
-2. *Spikes*: Poisson, at one rate while the animal is in the cell's receptive field and at another outside. The fields
-   are those of the cells of an `NresMap`: mutually exclusive and with sharp borders.
-3. *Tuning*: spikes in each bin of a variable, divided by the time spent there, both smoothed by a Gaussian. For
-   position this is a rate map, for direction or speed a tuning curve (thesis section 2.2.1).
-4. *Information*: bits per spike about the variable (Skaggs et al. 1993), compared with that of spikes shifted in time.
-5. *Kinds* follow from the book's modalities. `THESIS` is the thesis's table 2.1, after Bicanski and Burgess (2020):
+1. The velocity of the animal is an Ornstein-Uhlenbeck process along each axis, and walls reflect it, so that it covers
+   the box uniformly. The box is a unit square, of 1 m, say; y points south as everywhere in neorl.
+2. A cell fires by Poisson at one rate inside its receptive field, that of a cell of an `NresMap`, and at another
+   outside.
+3. Tuning is spikes in each bin of a variable, divided by the time spent there, both smoothed by a Gaussian.
+4. *Kinds* follow from the book's modalities. `THESIS` is the thesis's table 2.1, after Bicanski and Burgess (2020):
    whether the locality and the direction of a kind are allocentric, a distance or neither, and what the kind concerns.
 """
 

@@ -22,8 +22,7 @@ import numpy as np
 from companion.shared.tabular import Rates, exploring_action, learn_q
 from neorl.common import checks
 from neorl.core.stream import new_stream, randint, uniform
-from neorl.kernels.execution import execute
-from neorl.kernels.kernel import kernel
+from neorl import execute, kernel
 
 RULES = {
     "sum": "the sum of the last L symbols modulo Ψ",

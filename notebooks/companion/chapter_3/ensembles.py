@@ -24,8 +24,7 @@ import numpy as np
 from companion.shared.runs import each_run
 from companion.shared.tabular import learn_q
 from neorl.core.stream import randint, new_stream, uniform
-from neorl.kernels.execution import execute
-from neorl.kernels.kernel import kernel
+from neorl import execute, kernel
 
 LEARNERS = ("Q-learning", "Sarsa", "actor–critic", "QV-learning", "ACLA")
 RULES = ("majority voting", "rank voting", "Boltzmann multiplication", "Boltzmann addition")

@@ -25,8 +25,7 @@ from companion.shared.grid import Grid
 from companion.shared.runs import each_run
 from companion.shared.tabular import Rates, exploring_action, learn_q
 from neorl.core.stream import randint, new_stream, uniform
-from neorl.kernels.execution import execute
-from neorl.kernels.kernel import kernel
+from neorl import execute, kernel
 
 KINDS = ("one learner", "heads", "latent heads")
 ENDS = ("all eaten", "caught", "out of time")

@@ -1,15 +1,10 @@
 """Two levers, a light and a bell: what inference inversion and temporal difference learn from one stream of events.
 
-1. An agent in a chamber always presses one of two levers. The first lever to have been pressed for ``effort`` steps in
-   total opens its exit, ``delay`` steps later. The agent leaves through it and is put back: one visit.
-2. Light and bell come on at random, and have no effect.
-3. Lever, light and bell stay the same for a *bout*, then all are redrawn. A bout ends after each step with probability
-   1 / ``hold``, even in the middle of a visit, and may extend into the next.
-4. With *inference inversion* (thesis eq. 4.7, 4.8) the agent learns once per visit, when its cell changes from the
-   chamber to an exit. With *temporal difference* (eq. 4.6) it learns after every step, and most steps lead from the
-   chamber to the chamber; every event that occurs on a step counts as an action of that step.
-5. The stream does not depend on what is learned. Nothing is learned about the way back, and an agent that is put back
-   remembers no earlier cell, so that a rule with a memory learns as it would without.
+Chapter 4 describes the chamber. Lever, light and bell stay the same for a *bout*, then all are redrawn; a bout ends
+after each step with probability 1 / ``hold``, even in the middle of a visit. With *inference inversion* (thesis eq.
+4.7, 4.8) the agent learns once per visit, when its cell changes from the chamber to an exit. With *temporal difference*
+(eq. 4.6) it learns after every step, and every event that occurs on a step counts as an action of that step. The stream
+does not depend on what is learned, and nothing is learned about the way back.
 """
 
 from dataclasses import replace
@@ -17,13 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agents.rules import CALIBRATED, Learning
+from neorl import CALIBRATED, Learning, array, execute, kernel
 from neorl.core.choices import Credit
 from neorl.core.learning import UNIT, ZERO, MapValues, Order, Rule, learn_all_goals, learn_one_goal
 from neorl.core.stream import randint, new_stream, uniform
-from neorl.kernels.annotations import array
-from neorl.kernels.execution import execute
-from neorl.kernels.kernel import kernel
 
 ROLES = ("cause", "other lever", "light", "bell")
 N_EVENTS = len(ROLES)

@@ -1,8 +1,7 @@
 """What claims T7 and T5 are about: agents with either temporal driver, and an agent that runs in real time."""
 
-from neorl.agents.papers import multimodal
+from neorl import WaterWorld, multimodal
 from companion.thesis.reading import conditions
-from neorl.worlds.waterworld import WaterWorld
 
 STEPS, STAYS = 150_000, (1, 10, 50)
 # The agents that are compared: the keys of their conditions, and of Brownian motion in their tank.

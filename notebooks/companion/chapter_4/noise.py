@@ -1,14 +1,11 @@
 """Noise, and what is in it besides: walks with a bias, and series with a predictable part (thesis section 4.1.1).
 
-1. At each step of a *walk* in three dimensions a walker moves one unit in one of the six directions of the axes.
-2. With probability 1 − β it draws the direction. With probability β, the *strength* of its bias, it moves towards its
-   goal, along the axis on which the goal is furthest; at its goal it always draws.
-3. The walker is an ε-greedy agent with ε = 1 − β. β = 0 is a random walk, whose position after many steps is a Wiener
-   process. A goal may be infinitely far away: its direction then never changes, and the bias is a constant drift.
-4. A *series* is x_t = z_t + u_t (Wold; eq. 4.1). The noise y_t is white, and z_t = y_t + b_1 y_{t−1} + b_2 y_{t−2} + …
-   The deterministic part u_t is one oscillation, with a phase drawn for each run.
-5. `decompose` sees only the series. It takes the oscillation with the least squared error for u_t, predicts the rest
-   from its past by least squares, and takes the prediction errors, called *innovations*, for y_t.
+1. At each step of a *walk* in three dimensions a walker moves one unit along an axis: with probability β, the
+   *strength* of its bias, towards its goal, along the axis on which that is furthest, and else at random, as at its
+   goal. A goal may be infinitely far away: the bias is then a constant drift.
+2. A *series* is x_t = z_t + u_t (Wold; eq. 4.1), with z_t = y_t + b_1 y_{t−1} + b_2 y_{t−2} + … of white noise y_t, and
+   one oscillation u_t, with a phase drawn for each run. `decompose` sees only the series: it takes the oscillation with
+   the least squared error for u_t, predicts the rest from its past, and takes the errors, *innovations*, for y_t.
 """
 
 from typing import NamedTuple

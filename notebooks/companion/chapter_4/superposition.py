@@ -1,14 +1,11 @@
 """Sums in place of a whole: functions as sums of ridges, and sums of value functions (thesis sections 4.1.1, 4.1.2).
 
-1. Kolmogorov and Arnold write every continuous function as Σ_q χ_q(Σ_p ψ_qp(x_p)), with 2n + 1 outer functions χ (eq.
-   4.2). Here the inner functions are the simplest possible, so each term is a *ridge*: χ(x cos θ + y sin θ).
-2. Ridges are added one at a time, each at the angle θ that explains most of the residual of the others (projection
-   pursuit, Friedman and Stuetzle 1981). The outer functions are polynomials, fitted jointly by least squares.
-3. On a grid, a state pays its reward whenever it is entered. A step into a wall enters no state. The task is
-   continuing. With a reward of 1 in one state, the best values are the operant value function towards it.
-4. *Superposition* (eq. 4.3, 4.4) adds the value functions of all elements, each times its valence. The values of a
-   fixed policy are linear in the rewards, so for them the sum is exact. The best values are not linear: each term of
-   the sum assumes that the agent pursues its element alone.
+1. Each term of the sum of Kolmogorov and Arnold (eq. 4.2) is a *ridge* here, χ(x cos θ + y sin θ). Ridges are added one
+   at a time, at the angle that explains most of the residual (projection pursuit, Friedman and Stuetzle 1981); the
+   outer functions χ are polynomials, fitted jointly by least squares.
+2. On a grid, a state pays its reward whenever it is entered, and a step into a wall enters no state. *Superposition*
+   (eq. 4.3, 4.4) adds the value functions of all elements, each times its valence. For a fixed policy the sum is exact;
+   for the best one it is not, since each term assumes that the agent pursues its element alone.
 """
 
 import math

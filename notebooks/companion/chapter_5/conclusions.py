@@ -1,10 +1,8 @@
 """The two conclusions of the thesis (section 5.1), the claims behind them, and whether they are reproduced.
 
-1. Each conclusion rests on some claims about agents, of which four *carry* it; all others about agents are the ground
-   of both. Claims that are not about agents are counted apart, and demonstrations stand beside them.
+1. Each rests on some claims about agents, of which four *carry* it; all others about agents are the ground of both.
 2. A conclusion *stands* if all that carry it are reproduced, *in part* if any is, wholly or partly, *does not stand* if
    all have failed, and is *open* otherwise. It is *not judged* while none of them has a verdict.
-3. A claim that has not been judged has no row. One sentence says which these are, and how to have them judged.
 
 Records are as `companion.page.report.load` returns them.
 """

@@ -10,12 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from companion.paper_b.trials import LIVED, of_runs
-from neorl.agents.agent import Desire, Node, Place
-from neorl.agents.rules import Policy
+from neorl import Condition, Desire, Node, Place, Policy, Run
 from neorl.core.modality import PLACE_CELL
-from neorl.experiments.condition import Condition
 from neorl.experiments.bins import bin_steps
-from neorl.experiments.run import Run
 
 PLACES = (Place(0.3, 0.3), Place(0.65, 0.65))  # desired in turn, for the agent's position
 MOVES, SECONDS_A_MOVE = 6, 30

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.patches import Circle, Rectangle
 
-from companion.page.style import mark
+from companion.page.panels import mark
 from neorl.core.direction import TAU
 from neorl.drawing.boards import as_board
 from neorl.drawing.curves import draw_curves

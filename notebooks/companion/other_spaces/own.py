@@ -9,16 +9,9 @@ from dataclasses import replace
 import numpy as np
 
 from companion.shared.tabular import Rates
-from neorl.agents.agent import Desire, Node, Place
-from neorl.agents.rules import Policy
+from neorl import Arena, Arm, Axis, Condition, Desire, Modality, Node, Place, Policy, Vessel, WaterMaze
 from neorl.agents.spaces import FAR_RADAR, pilot, reacher, seeker, swimmer
 from neorl.core.direction import TAU
-from neorl.core.modality import Axis, Modality
-from neorl.experiments.condition import Condition
-from neorl.worlds.arena import Arena
-from neorl.worlds.arm import Arm
-from neorl.worlds.vessel import Vessel
-from neorl.worlds.water_maze import WaterMaze
 
 STEPS = 200_000
 ANGLES = TAU * np.arange(8) * 3 / 8

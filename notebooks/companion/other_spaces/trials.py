@@ -13,10 +13,8 @@ import numpy as np
 
 from companion.shared.tabular import Rates, exploring_action, learn_q
 from neorl.core.stream import new_stream
-from neorl.experiments.run import Run
+from neorl import Run, execute, kernel
 from neorl.kernels.annotations import array, fields, mapped
-from neorl.kernels.execution import execute
-from neorl.kernels.kernel import kernel
 
 SIDE = 9  # cells along each side of the pool, as in the finer of the swimmer's maps
 STRETCH = 500  # steps between two checks of whether all trials are over

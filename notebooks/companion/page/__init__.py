@@ -7,9 +7,8 @@ page, `verdicts` its table of claims, and `save` the record of them. The rest is
 from companion.page.beginning import begin, listed, source
 from companion.page.judging import by_condition, judge, judge_papers, papers_conditions
 from companion.page.opening import found
-from companion.page.panels import add_arrow, add_curves, draw_means
+from companion.page.panels import UNDER_WHITE, add_arrow, add_curves, draw_means
 from companion.page.report import comparison, errata, load, save, verdicts
-from companion.page.style import UNDER_WHITE
 from companion.page.thesis_figures import mark_levels
 from companion.page.wording import number, scientific, table
 

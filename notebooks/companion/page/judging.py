@@ -9,8 +9,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from companion.thesis import reading as readings
-from neorl.experiments.condition import Condition
-from neorl.experiments.result import Result
+from neorl import Condition, Result
 
 PAPERS = {"layers": "A", "single": "A", "networks": "C"}  # whose conditions are in a group; else paper B's
 

@@ -1,11 +1,14 @@
-"""Parts of pages' own figures: curves with their names at their ends, means over runs, and arrows."""
+"""Parts of pages' own figures: curves with their names at their ends, means over runs, arrows, and small letters."""
 
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.ticker import MultipleLocator
 
-from neorl.drawing.style import CURVES, INK, letters, name_ends
+from neorl.drawing.style import CURVES, INK, SMALL, letters, name_ends
 from neorl.statistics import mean_band
+
+FILL = 0.3  # the greatest opacity of a fill that arrows cross
+UNDER_WHITE = "#5a5a5a"  # the background of white letters, which need more contrast than a sign such as +
 
 
 def add_curves(axes, xs, curves, colours=CURVES, line=0.075, linewidth=1.8, **settings):
@@ -61,3 +64,12 @@ def add_arrow(axes, start, end, colour, linewidth=1.4, style="->"):
     """Draw an arrow from a point to another."""
     axes.annotate("", end, start, arrowprops={"arrowstyle": style, "color": colour, "linewidth": linewidth,
                                               "shrinkA": 0, "shrinkB": 0})
+
+
+def mark(axes, place, text, **options):
+    """Write a few letters in white on a dark background, legible on any fill and over curves.
+
+    place, options: as in `Axes.annotate`, whose annotation is returned.
+    """
+    ground = {"boxstyle": "round,pad=0.12", "facecolor": UNDER_WHITE, "edgecolor": "none"}
+    return axes.annotate(text, place, color="white", fontsize=SMALL, bbox=ground, zorder=5, **options)

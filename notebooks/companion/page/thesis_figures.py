@@ -6,7 +6,7 @@ The thesis's numbers are in grey, with their values, the first with "thesis"; re
 import numpy as np
 from matplotlib.text import Annotation
 
-from companion.page.style import mark
+from companion.page.panels import mark
 from neorl.drawing.style import CURVES, INK, SMALL, axes_or_new, name_ends, width_of_figures
 
 ROW = 0.62  # inches

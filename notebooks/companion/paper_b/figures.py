@@ -9,8 +9,7 @@ from matplotlib.patches import Circle
 
 from companion.paper_b.receptive_fields import draw_receptive_fields
 from companion.paper_b.trials import values_for_objects
-from companion.page.panels import add_arrow
-from companion.page.style import FILL, mark
+from companion.page.panels import FILL, add_arrow, mark
 from companion.page.thesis_figures import draw_against_thesis
 from companion.page.wording import table
 from neorl.core.maps import NresMap

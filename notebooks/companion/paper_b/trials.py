@@ -9,9 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from companion.shared.runs import each_run
-from neorl.agents.rules import Policy
-from neorl.experiments.condition import Condition
-from neorl.experiments.run import Run
+from neorl import Condition, Policy, Run
 from neorl.experiments.simulation import usable_threads
 
 LIVED = 0.25  # share of a run that agents live before they are measured

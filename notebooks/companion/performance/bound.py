@@ -26,9 +26,7 @@ import numpy as np
 from companion.performance.timing import always
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream, randint
-from neorl.kernels.annotations import array
-from neorl.kernels.execution import execute
-from neorl.kernels.kernel import kernel
+from neorl import array, execute, kernel
 from neorl.worlds.waterworld import Rules, WaterWorldState, reset, step
 
 LINE = 64  # bytes, in which memory moves

@@ -15,13 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agents.papers import place_cells
-from neorl.agents.rules import Learning
+from neorl import Learning, Run, array, execute, kernel, place_cells
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
-from neorl.experiments.run import Run
-from neorl.kernels.annotations import array
-from neorl.kernels.execution import execute
-from neorl.kernels.kernel import kernel
 from neorl.worlds.waterworld import GREEN, WaterWorld
 
 PLAIN = Learning(learning_rate=0.03, discount=0.8, credit="share")

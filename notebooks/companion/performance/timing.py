@@ -11,10 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
-from neorl.kernels.annotations import array
-from neorl.kernels.execution import execute
-from neorl.kernels.kernel import kernel
-from neorl.statistics import Estimate
+from neorl import Estimate, array, execute, kernel
 
 SMALLEST, LARGEST = 2**14, 2**28  # bytes
 A_TIME = 2**25  # bytes moved in one measurement, at least

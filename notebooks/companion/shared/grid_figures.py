@@ -5,14 +5,14 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Rectangle
 
 from companion.shared.grid import MOVES, WALL
-from companion.page.style import FILL, mark
-from neorl.drawing.style import AGENT, GREEN, INK
+from companion.page.panels import FILL, mark
+from neorl.drawing.style import AGENT, GREEN, INK, width_of_figures
 
 
 def new_grids(grid, columns=1, rows=1):
     """Axes for drawings of a grid, side by side in a figure: a list."""
     wide, high = len(grid.rows[0]), len(grid.rows)
-    width = plt.rcParams["figure.figsize"][0]
+    width = width_of_figures()
     figure, axes = plt.subplots(rows, columns, figsize=(width, width / columns * high / wide * rows + 0.3 * rows),
                                 squeeze=False)
     for each in axes.flat:

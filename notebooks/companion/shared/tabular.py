@@ -6,8 +6,7 @@ thesis eq. 3.5 and 4.6).
 
 from typing import NamedTuple
 
-from neorl.core.stream import randint, uniform
-from neorl.kernels.kernel import kernel
+from neorl import kernel, randint, uniform
 
 
 class Rates(NamedTuple):

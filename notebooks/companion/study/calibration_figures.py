@@ -3,7 +3,7 @@
 import numpy as np
 
 from companion.thesis.priors import WITHIN
-from companion.study.calibration_results import progress
+from companion.study.calibration_table import progress
 from neorl.drawing.style import AGENT, INK, RED, SMALL, TEXT, axes_or_new, name_ends, width_of_figures
 
 ROW = 0.25  # inches, of a choice

@@ -1,16 +1,14 @@
 """The targets of the calibration: the thesis's printed numbers with tolerances, stated before any calibration run.
 
-1. A *target* is a statistic of one reading and the interval that agrees with the thesis. A printed number gets a
-   tolerance; an ordering ("better than", "quicker") is a one-sided interval, a lead of at least 0.01 per second, so
-   that two agents that both stand still are not ordered.
-2. *Final* is the last fifth of a run and *early* its first tenth, as in `companion.thesis.claims`; rewards are per
-   simulated second, of the mean over runs, which is what the thesis plots.
-3. An agent that earns no more than Brownian motion has learned nothing. So where a statistic divides by an agent's
+1. A *target* is a statistic of one reading and the interval that agrees with the thesis; the page on the search says
+   how wide intervals are, and why. Rewards are per simulated second, of the mean over runs, which is what the thesis
+   plots.
+2. An agent that earns no more than Brownian motion has learned nothing. So where a statistic divides by an agent's
    reward, the divisor is at least that of Brownian motion: a ratio of two failures is no success.
-4. The *error* of a statistic is its standard error over runs, by the jackknife: each run in turn is left out of every
+3. The *error* of a statistic is its standard error over runs, by the jackknife: each run in turn is left out of every
    condition. The *distance* to a target is how far the value lies outside its interval, in units that combine the
-   target's scale and the error; it is 0 inside.
-5. Targets belong to *groups* of conditions that are computed together, the cheap ones first.
+   target's scale and the error.
+4. Targets belong to *groups* of conditions that are computed together.
 """
 
 import math
@@ -64,7 +62,7 @@ class Target:
         return DECIDED[Bounds(self.low, self.high).decide(found)]
 
     def distance(self, value, error=0.0):
-        """How far a value lies outside the interval: ≥ 0, see point 4 of the module. Takes numbers and arrays."""
+        """How far a value lies outside the interval: ≥ 0, see point 3 of the module. Takes numbers and arrays."""
         outside = np.maximum(np.maximum(self.low - value, value - self.high), 0.0)
         return outside / np.hypot(self.scale, error)
 

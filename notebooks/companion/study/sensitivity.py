@@ -15,8 +15,7 @@ import numpy as np
 import scipy
 
 from companion.study import calibration_table
-from companion.study.calibration_results import best, claims_together
-from companion.study.calibration_table import Row, read_table
+from companion.study.calibration_table import Row, best, claims_together, read_table
 from companion.study.calibration_targets import CLAIMS, GROUPS, TARGETS
 from companion.study.emulator import Emulator, reading_at
 from companion.thesis.priors import WITHIN

@@ -10,14 +10,11 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 from neorl.agents import papers
-from neorl.agents.agent import Agent, Node
-from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
+from neorl import CALIBRATED, GREEDY, Agent, Condition, Learning, Node, Policy, WaterWorld
 from neorl.common import checks
 from neorl.common.checks import OneOf
 from companion.thesis import claims
 from companion.thesis.statements import STATEMENTS
-from neorl.experiments.condition import Condition
-from neorl.worlds.waterworld import WaterWorld
 
 SINGLE, LAYERS, PRIMES = (10, 30, 50, 70, 90), papers.LAYERS, papers.PRIMES
 VECTORS = ("by size", "signed")
