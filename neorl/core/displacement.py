@@ -101,6 +101,7 @@ def join_passed(agent, memory, trace, rule, node, nres, point):
     filled = min(passed, size)
     look_back(agent, memory, node, nres, begin, filled)
     for back in range(filled):
+        # Unsigned, and around the ring without %, which would divide.
         slot = np.uint64(begin + (newest - back if back <= newest else newest - back + size))
         cell = memory.seen_from[slot]
         if cell >= 0.0 and (back > 0 or not learning.bootstrap):  # the last centre has learned by bootstrapping
@@ -162,7 +163,7 @@ def learn_all_displacements(memory, values, rule, node, nres, reached, rates):
 @inlined_kernel
 def stays_inside(memory, node, nres, goal, centre):
     """Whether a goal is in the map, along all axes but the first, once the map is centred on another of its cells."""
-    for axis in range(np.uint64(1), node.axes):
+    for axis in range(np.uint64(1), node.axes):  # unsigned: numba adds an int64 and a uint64 as doubles
         cut = memory.cuts[nres.first_cut + axis]
         stride, intervals = int(cut.stride), int(cut.last) + 1
         interval = goal // stride % intervals - centre // stride % intervals + nres.contact // stride % intervals
@@ -175,7 +176,7 @@ def stays_inside(memory, node, nres, goal, centre):
 def has_left_centre(agent, memory, nres, point):
     """Whether the self is half a cell or more from the centre, along an axis; its offset is then in agent.offset."""
     slot, far = passed_slots(nres, point) + (memory.tracks[nres.first_track + point].passed - 1) % nres.passed, False
-    for axis in range(np.uint64(agent.here.shape[0])):
+    for axis in range(np.uint64(agent.here.shape[0])):  # unsigned, as above
         agent.offset[axis] = agent.coordinates[axis] - memory.passed_at[slot, axis]
         cells = agent.offset[axis] * memory.cuts[nres.first_cut + axis].scale
         far = far or cells >= 0.5 or cells <= -0.5

@@ -49,6 +49,7 @@ def locate(agent, memory, scene, user, node, point, from_offset):
     """
     coordinates, offset = agent.coordinates, agent.offset
     followed_has, all_have = True, True
+    # The usual case: the components themselves, without a look at features.
     if node.is_cartesian:
         for axis in range(node.axes):
             coordinates[axis] = (offset[axis] if from_offset else
@@ -59,7 +60,7 @@ def locate(agent, memory, scene, user, node, point, from_offset):
         replaced = from_offset and axis.vector == node.follows
         if axis.vector == Vector.own:
             coordinate = user.feature(axis.along, scene, point)
-            if coordinate != coordinate:
+            if coordinate != coordinate:  # it is not a number
                 agent.faults[OF_AXIS] = axis.along + 1
         elif axis.feature <= Feature.margin:
             coordinate = (offset[axis.along] if replaced else
@@ -92,7 +93,7 @@ def locate(agent, memory, scene, user, node, point, from_offset):
 @inlined_kernel
 def cell_of(memory, node, nres, coordinates):
     """Σ stride · interval over the axes: the cell of a point in a map; a missing direction counts as 0."""
-    cell = 0.0
+    cell = 0.0  # a double, as strides and intervals are, so that only the sum is converted
     for axis in range(node.axes):
         cut = memory.cuts[nres.first_cut + axis]
         cell += cut.stride * interval_at(cut, coordinates[axis])
@@ -115,7 +116,7 @@ def cell_within(agent, memory, node, nres, coordinates):
 def interval_at(cut, coordinate):
     """⌊(x − low) · scale⌋, the interval that contains a coordinate, or the one at the end of the range."""
     interval = np.floor((coordinate - cut.low) * cut.scale)
-    interval = interval if interval > 0.0 else 0.0
+    interval = interval if interval > 0.0 else 0.0  # also for a missing direction, NaN
     return cut.beyond if interval > cut.last else interval
 
 

@@ -23,7 +23,7 @@ from neorl.core.layout import OF_CREDIT
 from neorl.kernels.annotations import array
 from neorl.kernels.kernel import inlined_kernel, kernel
 
-ZERO, UNIT, SMALLEST = np.float32(0.0), np.float32(1.0), np.float32(1e-30)
+ZERO, UNIT, SMALLEST = np.float32(0.0), np.float32(1.0), np.float32(1e-30)  # single: a literal is a double
 UNBOUNDED = np.float32(np.inf)
 INACTIVE = np.float32(0.01)
 
@@ -46,6 +46,7 @@ class Order(NamedTuple):
     not runs through all actions for one goal in many states: its maps are q[goal, state, action].
     """
 
+    # Unsigned: an index that may be negative costs numba two instructions more at every access.
     state: np.uint64
     goal: np.uint64
     action: np.uint64
@@ -104,6 +105,7 @@ def order_of(agent, nres):
     goals, actions = np.uint64(nres.goals), np.uint64(agent.rates.shape[0])
     if agent.learning.bootstrap and goals > 1:
         return Order(actions * goals, np.uint64(1), goals)
+    # A goal's values side by side: a memory learns a fine map in a third of the time.
     return Order(actions, actions * goals, np.uint64(1))
 
 
@@ -133,8 +135,10 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
         factor = UNIT if event + 4 <= last else rule.discount
         first, second = row + event * cells, row + min(event + 1, last) * cells
         third, fourth = row + min(event + 2, last) * cells, row + min(event + 3, last) * cells
+        # Views, whose indices count from 0 and so need no test for being negative.
         one, two, three, four = (q[first : first + count], q[second : second + count], q[third : third + count],
                                  q[fourth : fourth + count])
+        # The first four write the targets, which then need not be cleared before.
         if event == 0:
             for goal in range(count):
                 target[goal] = factor * higher(higher(one[goal], two[goal]), higher(three[goal], four[goal]))
@@ -146,7 +150,7 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
     highest = UNIT if rule.terminal else UNIT / (UNIT - rule.discount)
     for event in range(values.actions):  # a loop for each form of the update, which compiles to vector instructions
         row = values.first + (cell_tm1 * values.actions + event) * cells + begin
-        value = q[row : row + count]
+        value = q[row : row + count]  # a view, as above
         occurred = rates[event] > ZERO
         if occurred or rule.away and rule.absent_rate > ZERO:
             rate, bound = (rates[event], UNBOUNDED) if occurred else (-rule.absent_rate, highest)

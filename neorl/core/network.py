@@ -100,7 +100,7 @@ def evaluate_desire(agent, memory, scene, user, node, desire):
     if desire.source == Source.point:
         add_point(agent, memory, node, desire, valence)
         return
-    agent.evaluation += 1
+    agent.evaluation += 1  # outdates all that `counts` has marked, so that no mark need be cleared
     has_tracks = is_of_kind and node.follows == Vector.objects and node.state == MapState.object
     for thing in range(scene.kinds.shape[0] if is_of_kind else 1):  # one call of each kernel, since it is inlined here
         if not is_of_kind or scene.kinds[thing] == desire.kind:
@@ -205,7 +205,7 @@ def add_contact(agent, memory, node, nres, cell, valence, q):
 @inlined_kernel
 def add_goals(agent, memory, node, nres, cell, goal, valence, q):
     """Add the values of all goals that differ from one only along axes on which an element has no place."""
-    if nres.followed == nres.cells:
+    if nres.followed == nres.cells:  # the usual case, without a loop
         add_value(agent, memory, node, nres, cell, goal, valence, q)
     elif goal >= 0:
         for other in range(goal % nres.followed, nres.cells, nres.followed):

@@ -78,13 +78,14 @@ def fade(trace, count, retained, discount):
         trace.strength[i] *= retained
     size, half = count * trace.rates.shape[0], trace.cells.shape[0] * trace.rates.shape[0]
     for begin in range(0, 2 * half, half):
+        # Views, whose indices count from 0.
         weights, worths = trace.weight[begin : begin + size], trace.goal_worth[begin : begin + size]
         for i in range(size):
             weights[i] *= retained
             reached = worths[i] * retained * discount
             worths[i] = reached if reached > SMALLEST else ZERO
     i = 0
-    while i < count:
+    while i < count:  # not a range: the last cell takes the place of one that is forgotten, and is looked at next
         if trace.strength[i] < FORGOTTEN:
             count -= 1
             forget(trace, i, count)
@@ -102,6 +103,7 @@ def forget(trace, i, last):
     cells[i], trace.strength[i] = cells[last], trace.strength[last]
     for begin in range(0, 2 * cells.shape[0] * actions, cells.shape[0] * actions):
         for event in range(actions):
+            # Unsigned, as in `learning.Order`.
             into, of = np.uint64(begin + i * actions + event), np.uint64(begin + last * actions + event)
             trace.weight[into], trace.goal_worth[into] = trace.weight[of], trace.goal_worth[of]
 
@@ -141,6 +143,7 @@ def move(values, count, happened, reached, absent, missed, away):
     """Move values towards the worth of the goal for events that occurred, and let those of absent events sink."""
     for i in range(count):
         value = values[i]
+        # Both results, then a choice: without a branch, the loop compiles to vector instructions.
         weight = happened[i] if happened[i] > ZERO else UNIT
         raised = value + (weight if weight < UNIT else UNIT) * (reached[i] / weight - value)
         value = raised if happened[i] > ZERO else value

@@ -16,6 +16,7 @@ import numba
 
 from neorl.kernels.identity import is_ours
 
+# A division by zero does not raise, and threads run side by side.
 OPTIONS = {"error_model": "numpy", "nogil": True}
 UNLINKED = "NEORL_UNLINKED"  # set in the environment, kernels are compiled each by itself
 

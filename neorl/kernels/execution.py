@@ -42,6 +42,7 @@ def bound(kernel, *arguments):
     if jit_is_off():
         return lambda: execute(kernel, *arguments)
     tables = [in_table(values, _record_among(arguments)) for values in arguments]
+    # Past numba's dispatcher, which would look up the types of the arguments at every call.
     entry = kernel.compiled_for(tuple(table._numba_type_ for table in tables)).entry
 
     def call():

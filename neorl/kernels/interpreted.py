@@ -18,7 +18,7 @@ class Rows:
     """The rows of an array of records."""
 
     def __init__(self, array):
-        self.shape, self._array, self._rows = array.shape, array, {}
+        self.shape, self._array, self._rows = array.shape, array, {}  # rows are made when first read, and kept
 
     def __getitem__(self, index):
         if index not in self._rows:

@@ -35,7 +35,7 @@ class Table:
     def __init__(self, values, record=None):
         self.values, self._numba_type_, self._users = values, _view(type(values), record), []
         self.words = np.array(list(self._words(values)), np.int64)
-        self.address = self.words.ctypes.data
+        self.address = self.words.ctypes.data  # kept: `ctypes` makes an object at each access
 
     def _words(self, values):
         for value, (name, field) in zip(values, fields(type(values)).items()):
@@ -55,7 +55,7 @@ class Table:
             return 0
         types_of_arguments = tuple(map(self._numba_type_.type_of, signature.arguments))
         compiled = kernel.compiled_for(types_of_arguments, SCALARS[signature.returns])
-        if Reading(kernel).functions:
+        if Reading(kernel).functions:  # only what the user has written can change
             self._users.append((kernel, compiled.dispatcher))
         return compiled.library.get_pointer_to_function(compiled.name)
 
@@ -195,7 +195,7 @@ def _array(context, builder, kind, address):
     shape = [_loaded(builder, builder.gep(address, [ir.Constant(WORD, 1 + axis)])) for axis in range(kind.ndim)]
     strides = [ir.Constant(WORD, size)]
     for length in reversed(shape[1:]):
-        strides.insert(0, builder.mul(strides[0], length, flags=["nsw"]))
+        strides.insert(0, builder.mul(strides[0], length, flags=["nsw"]))  # no overflow
     data = _loaded(builder, builder.bitcast(address, data_type.as_pointer().as_pointer()))
     populate_array(array, data, shape, strides, ir.Constant(WORD, size), meminfo=None)
     return array._getvalue()

@@ -45,7 +45,7 @@ class Log(NamedTuple):
 def is_placed(scene):
     """Whether the agent's place and velocity keep the rules of worlds."""
     for axis in range(scene.position.shape[0]):
-        if not (abs(scene.position[axis]) <= LARGEST and abs(scene.velocity[axis]) <= LARGEST):
+        if not (abs(scene.position[axis]) <= LARGEST and abs(scene.velocity[axis]) <= LARGEST):  # NaN too
             return False
     return True
 
@@ -104,7 +104,7 @@ def begun_again(agent, memory, scene, life, n_kinds):
 @functools.cache
 def rollout_in(dynamics):
     """The kernel `rollout` of agents in a world of given `Dynamics`."""
-    reset, step = dynamics.reset, inlined(dynamics.step)
+    reset, step = dynamics.reset, inlined(dynamics.step)  # a reset is rare, so it is not inlined
     world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
 
     @kernel
@@ -115,7 +115,7 @@ def rollout_in(dynamics):
             log.clock[0] = now + 1
             action = life.act(agent, memory, scene, life.functions)
             reward, done = step(world_state, rules, action)
-            if not abs(reward) <= LARGEST:
+            if not abs(reward) <= LARGEST:  # also if it is NaN
                 log.paid[0] = reward
                 return
             log.paid[0] += reward
