@@ -13,6 +13,7 @@ from saved_files import rewrite
 
 from neorl import (CARDINAL, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld,
                    brownian, drawing, multimodal, network_d, object_vector_cells, place_cells, softmax)
+from neorl.agents.agent import LEARNED
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 from neorl.kernels.annotations import arrays, mapped
 from neorl.kernels.execution import execute
@@ -305,3 +306,12 @@ def test_what_is_no_learner_or_not_there_is_refused(saved, tmp_path):
     np.savez(tmp_path / "foreign.npz", q=np.zeros(3))
     with pytest.raises(ValueError, match="must be a file of neorl's, but"):
         Learner.load(tmp_path / "foreign.npz")
+
+
+def test_a_thing_that_is_met_counts_by_the_kind_that_it_had():
+    agent = Agent([Node("PC", PLACE_CELL, [3])], [Desire(kind, "PC", LEARNED) for kind in ("green", "red")])
+    learner = Learner(agent, 1, ("green", "red"))
+    learner.begin(Scene([0.5, 0.5], things=[[0.6, 0.5]], kinds=["green"]))
+    learner.act()
+    learner.observe(Scene([0.5, 0.5], things=[[0.1, 0.9]], kinds=["red"], met=[True]), reward=3.0)
+    assert learner.state.desires.meetings.tolist() == [1, 0] and learner.state.desires.worth[0] == 3.0

@@ -73,6 +73,14 @@ def advance(steps):
     return {"type": "advance", "steps": steps, "budget": 60_000}
 
 
+def test_a_run_that_goes_on_has_bins_twice_as_long_and_keeps_what_it_earned_and_met(ask):
+    _, before, after = ask(advance(STEPS), {"type": "extend"})
+    totals = [(each["rewards"], *(kind["counts"] for kind in each["hits"])) for each in (before, after)]
+    for short, long in zip(*totals):
+        assert long[: len(short) // 2] == np.reshape(short, (-1, 2)).sum(axis=1).tolist()
+    assert sum(totals[0][1]) > 0
+
+
 def test_a_frame_reports_the_state_of_the_run(ask):
     goal = 7
     begun, _, frame = ask({"type": "look", "map": "OVC N5", "goal": goal, "field": 9, "heat": 9},
@@ -82,6 +90,8 @@ def test_a_frame_reports_the_state_of_the_run(ask):
     assert frame["reward"] == run.advance(STEPS, rewards, hits)
     assert frame["step"] == STEPS and not frame["ended"]
     assert np.array_equal(frame["rewards"][: STEPS // 100], rewards[: STEPS // 10].reshape(-1, 10).sum(axis=1))
+    assert [each["counts"][: STEPS // 100] for each in frame["hits"]] == hits[: STEPS // 10].reshape(
+        -1, 10, 2).sum(axis=1).T.tolist()
     assert begun["maps"] == ["PC N4", "PC N5", "OVC N4", "OVC N5"]
     assert begun["shapes"] == ["4 × 4", "5 × 5", "4 × 4", "5 × 5"]
     assert (frame["seen"]["name"], frame["seen"]["goal"]) == ("OVC N5", goal)

@@ -45,6 +45,13 @@ def test_claims_to_the_letter_are_kept_apart(cache_folder):
     assert not report.load()["claims"] and list(report.load()["letter"]) == ["C1", "C2", "C3", "C4"]
 
 
+def test_a_claim_that_several_pages_have_judged_is_that_of_most_runs(tmp_path):
+    paths = [tmp_path / f"{runs}.json" for runs in (5, 20, 10)]
+    for path in paths:
+        path.write_text(json.dumps({"claims": {"A1": {"runs": int(path.stem)}}}))
+    assert report.load(paths)["claims"] == {"A1": {"runs": 20}}
+
+
 def test_a_table_leads_to_what_the_verdicts_rest_on_and_has_the_readings_that_were_judged():
     assert report.verdicts(networks()).splitlines()[0] == "| Claim | Thesis | Here | Verdict |"
     kept = {"claims": report.kept(networks()), "letter": report.kept(networks(*paper_c()[::-1]))}
