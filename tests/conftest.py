@@ -31,9 +31,10 @@ QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "-
          "--disable-component-update", "--disable-sync"]  # no requests of its own
 PATIENCE = 60_000  # milliseconds that a test waits for a page, since the machine may be busy
 
-FIRST = ("test_readme", "test_book", "test_claims", "test_statistics",
-         "test_make", "test_fuzzing", "test_package", "test_fuzzed_kernels", "test_compiler_off", "test_jupyterlab",
-         "test_variations")
+# The files that take longest, lest one is left when all other workers have finished; those that open pages come later.
+FIRST = ("test_make", "test_compiling", "test_maze", "test_variations", "test_compiler_off", "test_sweeping",
+         "test_claims", "test_paper_a", "test_calibration", "test_captions", "test_fuzzing", "test_fuzzed_kernels",
+         "test_jupyterlab", "test_star", "test_engine", "test_explorer_loads", "test_readme", "test_book")
 
 
 # The kernels of nearly all tests, and the modules of those that open pages.
@@ -64,10 +65,6 @@ def pytest_unconfigure(config):
 
 
 def pytest_collection_modifyitems(items):
-    """Begin with the files that take longest, lest one is left when all other workers have finished.
-
-    One of the first four compiles the kernels of which most others have need, while the other three have none.
-    """
     items.sort(key=lambda item: FIRST.index(item.path.stem) if item.path.stem in FIRST else len(FIRST))
 
 

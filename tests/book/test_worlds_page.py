@@ -15,6 +15,9 @@ PAGE = Path(__file__).parents[2] / "book" / "api_worlds.md"
 EXAMPLES = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
 MAZE, *CIRCLE = EXAMPLES
 WITHOUT_COMPILER = {"NUMBA_DISABLE_JIT": "1"}
+SHORT = """
+path = Run(agent, Maze(), seed=0).record(1_000)
+print(path.rewards.sum(), path.returns.tolist(), *path.positions[-1])"""
 
 
 def run(folder, code, typed="", **environment):
@@ -28,10 +31,13 @@ def promised(code):
     return re.findall(r"print\(.*# → (.*)", code)
 
 
-@pytest.mark.parametrize("environment", [{}, WITHOUT_COMPILER], ids=["compiled", "not compiled"])
-def test_the_world_prints_what_stands_behind_its_arrow(tmp_path, environment):
-    done = run(tmp_path, MAZE, **environment)
-    assert done.stdout.splitlines() == promised(MAZE) != [], done.stderr
+def test_the_world_prints_what_stands_behind_its_arrow_and_runs_alike_without_the_compiler(tmp_path):
+    done = run(tmp_path, MAZE + SHORT)
+    *printed, short = done.stdout.splitlines() or pytest.fail(done.stderr)
+    assert printed == promised(MAZE) != []
+    until, again, _ = MAZE.partition("paths = ")
+    interpreted = run(tmp_path, until + SHORT, **WITHOUT_COMPILER)
+    assert again and interpreted.stdout.splitlines() == [short], interpreted.stderr
 
 
 def test_the_circle_prints_what_stands_behind_its_arrows(tmp_path):

@@ -1,6 +1,7 @@
 """The star of the front page: the page runs what Python runs, readers move the star, and nothing shifts or fails."""
 
 import re
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 
@@ -30,13 +31,21 @@ def folder(tmp_path_factory):
     return folder
 
 
+def opened(open_page, folder, **options):
+    page = open_page(folder, "index.html", **options)
+    page.wait_for_selector(".neorl-star:is([data-state=running], [data-state=paused])")
+    return page
+
+
 @pytest.fixture
 def open_star(open_page, folder):
-    def open_star(**options):
-        page = open_page(folder, "index.html", **options)
-        page.wait_for_selector(".neorl-star:is([data-state=running], [data-state=paused])")
-        return page
-    return open_star
+    return partial(opened, open_page, folder)
+
+
+@pytest.fixture(scope="module")
+def page(open_shared_page, folder):
+    """A page for what readers do one after the other, since each begins with a lesson of 100 minutes."""
+    return opened(open_shared_page, folder)
 
 
 def distances(page):
@@ -48,8 +57,7 @@ def wait_for(page, seconds):
                            arg=seconds)
 
 
-def test_the_page_runs_what_python_runs(open_star):
-    page = open_star()
+def test_the_page_runs_what_python_runs(page):
     wait_for(page, 2)
     step, at = page.evaluate("(({ step, at }) => [step, at])(document.querySelector('.neorl-star').dataset)")
     run = star.experienced()
@@ -57,8 +65,7 @@ def test_the_page_runs_what_python_runs(open_star):
     assert [*map(float, at.split())] == [*(run.world_state.scene.position / star.TANK.width)]
 
 
-def test_the_agent_follows_the_star_that_its_reader_drags(open_star):
-    page = open_star()
+def test_the_agent_follows_the_star_that_its_reader_drags(page):
     tank = page.locator(".tank canvas").bounding_box()
     found = []
     for x, y in ((0.15, 0.85), (0.85, 0.85), (0.15, 0.15), (0.85, 0.15)):
@@ -84,22 +91,19 @@ def test_the_agent_is_closer_to_the_star_than_one_that_knows_nothing():
     assert means[0] < 0.2 and means[1] > 2 * means[0], means
 
 
-def test_the_star_moves_by_keyboard_and_by_a_click_and_says_where_it_is(open_star):
-    page = open_star()
+def test_the_star_moves_by_keyboard_and_by_a_click_and_says_where_it_is(page):
     handle, tank = page.locator("button.star"), page.locator(".tank canvas")
-    handle.focus()
-    page.keyboard.press("ArrowLeft")
-    page.keyboard.press("ArrowDown")
-    page.wait_for_selector("button.star[aria-label^='The star, 76 % from the left and 24 % from the top']")
     box = tank.bounding_box()
     tank.click(position={"x": box["width"] / 2, "y": box["height"] / 2})
     page.wait_for_selector("button.star[aria-label^='The star, 50 % from the left and 50 % from the top']")
-    page.keyboard.press("ArrowUp")  # at the focus, which stays with the star
+    handle.focus()
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("ArrowDown")
+    page.wait_for_selector("button.star[aria-label^='The star, 46 % from the left and 54 % from the top']")
     assert page.evaluate("scrollY") == 0
 
 
-def test_the_switches_forget_and_make_red_good_and_are_undone(open_star):
-    page = open_star()
+def test_the_switches_forget_and_make_red_good_and_are_undone(page):
     lived = page.locator(".lived")
     assert lived.inner_text() == "It has learned for 100 minutes, without a star."
     forget, red = (page.locator(f"[data-action={name}]") for name in ("forget", "red"))
