@@ -12,6 +12,7 @@ from types import SimpleNamespace
 from computing.cells import tags, with_values
 from markdown_it import MarkdownIt
 from matplotlib import pyplot as plt
+from matplotlib.text import Annotation, Text
 from computing.programs import changed_names, figure_of, read_names, statements
 
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
@@ -19,6 +20,8 @@ SMALL = {"runs": 2, "steps": 1_000, "seed": 0}
 ALSO_SMALL = {"alternatives": {"steps": 3_000}, "calibration": {"sample": 1, "steps": 2_000},
               "chapter_3": {"steps": 3_000},
               "other_spaces": {"decisions": 200}, "your_research": {"steps": 2_000}}
+WORDS = {"dashed": r"[Dd]ashed", "thesis": r"the (thesis|paper)('s number| reports)"}  # what speaks of a part
+LAST = {"calibrated": None, "letter": "judging"}  # of the cells of a page under its readings, one of which is run whole
 HIDDEN = {"remove-input", "hide-input", "hide-cell"}
 
 
@@ -40,12 +43,14 @@ def suggested(page, section):
 
 
 @cache
-def executed(page, changes=(), **parameters):
-    """The names that a page defines, run whole at a small size, as attributes.
+def executed(page, changes=(), until=None, **parameters):
+    """The names that a page defines, run at a small size, as attributes, and `parts_drawn`, of figures by cell.
 
-    changes: pairs (text, other text) of its code, each of which must be there. parameters: its own.
+    changes: pairs (text, other text) of its code, each of which must be there. until: the last cell to run, of which
+    there must be one, or None for the whole page. parameters: its own.
     """
     cells = code(page)
+    assert until in (None, *cells), until
     for text, other in changes:
         assert any(text in cell for cell in cells.values()), text
         cells = {name: cell.replace(text, other) for name, cell in cells.items()}
@@ -53,12 +58,38 @@ def executed(page, changes=(), **parameters):
     named = set(re.findall(r"^(\w+): ", cells[first], re.MULTILINE))
     small = {name: value for name, value in (SMALL | ALSO_SMALL.get(page, {})).items() if name in named}
     cells[first] = with_values(cells[first], small | parameters)
-    names = {"__name__": f"cells_of_{page}"}
+    names, drawn = {"__name__": f"cells_of_{page}"}, {}
     with plt.rc_context(), redirect_stdout(None):
         for name, cell in cells.items():
             exec(compile(cell, f"{page}.ipynb, {name}", "exec"), names)
+            drawn[name] = parts()
             plt.close("all")
-    return SimpleNamespace(**names)
+            if name == until:
+                break
+    return SimpleNamespace(**names, parts_drawn=drawn)
+
+
+def parts():
+    """The parts of `WORDS` that the open figures have."""
+    found = [each for number in plt.get_fignums() for each in plt.figure(number).findobj()]
+    arrows = [each.arrow_patch for each in found if isinstance(each, Annotation) and each.arrow_patch]
+    return {"dashed"} & {"dashed" for each in (*found, *arrows) if getattr(each, "get_linestyle", str)() == "--"} | {
+        "thesis" for each in found if isinstance(each, Text) and "thesis" in each.get_text()}
+
+
+def assert_captions_and_prose_speak_of_what_is_drawn(page, drawn):
+    """Assert that a page speaks of no part of a figure that its parameters leave out, such as the thesis's own levels.
+
+    drawn: the `parts_drawn` of `executed`.
+    """
+    for cell in json.loads((NOTEBOOKS / f"{page}.ipynb").read_text(encoding="utf-8"))["cells"]:
+        text = " ".join("".join(cell["source"]).split())
+        if cell["cell_type"] == "code":
+            shown = drawn[cell["id"]]
+        elif "caption" in cell["metadata"].get("tags", ()):
+            assert {part for part, words in WORDS.items() if re.search(words, text)} <= shown, text
+        else:
+            assert "dashed line" not in text
 
 
 def computed_below(cells, experiment, parameters):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
-from page_cells import executed
+from page_cells import LAST, executed
 
 import neorl
 from companion.chapter_5 import conclusions, figures, trials
@@ -17,7 +17,7 @@ from neorl import WaterWorld
 
 @pytest.fixture(scope="module", params=READINGS)
 def page(request):
-    return executed("chapter_5", reading=request.param)
+    return executed("chapter_5", until=LAST[request.param], reading=request.param)
 
 
 def test_agents_have_the_coarsest_maps_of_paper_b_up_to_all(page):

@@ -135,9 +135,9 @@ def test_the_page_fits_the_factor_of_growth_from_the_second_point_on():
 
 
 @pytest.mark.parametrize("page, judged", [
-    ({}, ["T3", "T4"]), ({"memory": 4, "changes": (("10, 13)", "10)"),)}, []),
-    ({"changes": (("exploration=0.1", "exploration=0.3"),)}, ["T4"]),
-    ({"changes": (("slip=0.2", "slip=0.5"),)}, ["T3"])])
+    ({}, ["T3", "T4"]), ({"until": "judging", "memory": 4, "changes": (("10, 13)", "10)"),)}, []),
+    ({"until": "judging", "changes": (("exploration=0.1", "exploration=0.3"),)}, ["T4"]),
+    ({"until": "judging", "changes": (("slip=0.2", "slip=0.5"),)}, ["T3"])])
 def test_the_page_judges_its_own_worlds_and_learners_alone(page, judged):
     claims = executed("chapter_3", **page).judged
     assert [(claim.name, claim.full_length) for claim in claims] == [(name, False) for name in judged]

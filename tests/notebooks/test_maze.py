@@ -165,12 +165,12 @@ def test_the_findings_of_the_original_are_not_found_in_results_that_lack_them():
 @pytest.mark.parametrize("after, verdict", [(2.5, "partly"), (1, "reproduced"), (12, "contradicted")])
 def test_the_demonstration_holds_as_far_as_its_animals_do(after, verdict):
     by_kind = {kind: {"throughout": flat(2), "never": flat(14), "delayed": flat(14, after, after)} for kind in LEARNERS}
-    assert executed("chapter_2").judge(by_kind).verdict == verdict
+    assert executed("chapter_2", until="judging").judge(by_kind).verdict == verdict
 
 
 @pytest.mark.parametrize("page, judged", [
     ({}, ["H1"]), ({"exploration": 0.3}, []),
     ({"changes": (("Maze()", 'Maze("RLRL")'),)}, [])])
 def test_the_page_judges_the_animals_of_the_book_alone(page, judged):
-    page = executed("chapter_2", **page)
+    page = executed("chapter_2", until="judging", **page)
     assert [claim.name for claim in page.judged] == judged

@@ -111,4 +111,4 @@ def test_a_claim_is_judged_with_a_verdict_only_of_runs_as_long_as_its_own(page):
 
 def test_a_claim_is_judged_only_of_the_page_s_own_agents_and_worlds():
     changes = ("HELD = 16", "HELD = 8"), ("(map_of_each, 20_000)", "(map_of_each, 10_000)")
-    assert [claim.name for claim in executed("other_spaces", changes, traffic=12).judged] == ["G1"]
+    assert [claim.name for claim in executed("other_spaces", changes, "judging", traffic=12).judged] == ["G1"]

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
-from page_cells import executed
+from page_cells import LAST, assert_captions_and_prose_speak_of_what_is_drawn, executed
 
 from companion import paper_a
 from companion.page.judging import by_condition
@@ -13,6 +13,17 @@ from neorl import Condition, Result, WaterWorld, brownian, place_cells
 from companion.thesis.reading import LAYERS, READINGS, SINGLE, TO_THE_LETTER, Reading, conditions, judge
 
 WORLD = WaterWorld(n_creeps=8, win_reward=5.0, fps=Reading().paper_a_fps)
+
+
+SHORT = ("8 * runs, 150_000)", "8 * runs, 1_500)"),  # Brownian motion, which is as long as the paper's at any size
+
+
+def other_maps():
+    return executed("paper_a", SHORT, reading="letter", layers="[5, 11]", resolutions=(10, 20, 30, 50, 70, 90))
+
+
+def other_board():
+    return executed("paper_a", SHORT, n_creeps=3)
 
 
 def made_up(agent, rate, runs=12, steps=150_000, world=WORLD):
@@ -33,10 +44,10 @@ def results_of(layers=LAYERS, resolutions=SINGLE, world=WORLD):
 
 @pytest.mark.parametrize("reading", READINGS)
 def test_the_page_runs_and_judges_what_the_paper_ran_under_a_reading(reading):
-    page = executed("paper_a", reading=reading, runs=11)
+    page = executed("paper_a", SHORT, LAST[reading], reading=reading, runs=11)
     expected = conditions(READINGS[reading], 1_000, 11, groups=("layers",))
     expected |= conditions(READINGS[reading], 1_000, 10, groups=("single",)) | {
-        ("brownian", 8): replace(expected["brownian", 8], runs=88, steps=150_000)}
+        ("brownian", 8): replace(expected["brownian", 8], runs=88, steps=1_500)}
     ran = by_condition(page.ran, expected)
     assert {key: each.condition for key, each in ran.items()} == expected
     *claims, explored = page.judged
@@ -46,7 +57,7 @@ def test_the_page_runs_and_judges_what_the_paper_ran_under_a_reading(reading):
 
 
 def test_other_maps_are_run_and_only_claims_about_the_paper_s_own_are_judged():
-    page = executed("paper_a", reading="letter", layers="[5, 11]", resolutions=(10, 20, 30, 50, 70, 90))
+    page = other_maps()
     assert [*page.several] == ["N5", "N11", "all maps"] and [*page.single][:2] == ["N10", "N20"]
     assert page.several["all maps"].agent == place_cells([5, 11], **TO_THE_LETTER.agents)
     assert [claim.name for claim in page.judged] == ["A1", "A2", "A3", "A4", "A5", "A11"]
@@ -64,13 +75,18 @@ def test_the_page_speaks_of_the_thesis_s_level_where_it_is_drawn():
 
 
 def test_nothing_is_judged_on_another_board_and_variations_are_of_what_was_run():
-    page = executed("paper_a", n_creeps=3)
+    page = other_board()
     assert page.judged == [] and {each.world.n_creeps for each in page.ran} == {3}
     assert set(page.varied) == set(page.variants) and len(page.variants) >= 8
     for name, reading in page.variants.items():
         expected = conditions(reading, 1_000, 2, groups=("layers",))
         agents = {each.agent for key, each in expected.items() if key != ("brownian", 8)}
         assert {each.agent for each in page.varied[name].values()} == agents
+
+
+@pytest.mark.parametrize("page", [other_maps, other_board])
+def test_captions_and_prose_speak_of_what_is_drawn(page):
+    assert_captions_and_prose_speak_of_what_is_drawn("paper_a", page().parts_drawn)
 
 
 def test_the_explorer_offers_what_was_run_by_the_paper_s_figures():

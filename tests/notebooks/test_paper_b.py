@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from page_cells import executed
+from page_cells import LAST, assert_captions_and_prose_speak_of_what_is_drawn, executed
 
 import neorl
 from companion.paper_b import figures, judgement
@@ -15,9 +15,20 @@ from companion.thesis.reading import READINGS, conditions
 ALL = [*CLAIMS_OF["paper_b"]]
 
 
+def judged(reading):
+    """The page under a reading."""
+    return executed("paper_b", until=LAST[reading], reading=reading, runs=11)
+
+
+@pytest.fixture(scope="module")
+def of_others():
+    """The page with other maps and another board."""
+    return executed("paper_b", resolutions="[2, 4]", n_creeps=5)
+
+
 @pytest.mark.parametrize("reading", READINGS)
 def test_the_page_runs_and_judges_what_the_paper_ran_under_a_reading(reading):
-    page = executed("paper_b", reading=reading, runs=11)
+    page = judged(reading)
     main = conditions(READINGS[reading], 1_000, 11, groups=["modal"])
     expected = conditions(READINGS[reading], 1_000, 10, groups=["modal", "resolutions"])
     expected |= {key: main[key] for key in (("place", "all"), ("objects", "all"), "both")}
@@ -32,21 +43,24 @@ def test_the_page_runs_and_judges_what_the_paper_ran_under_a_reading(reading):
 
 
 def test_points_are_taken_from_the_same_runs():
-    page = executed("paper_b", reading="letter", runs=11)
+    page = judged("letter")
     assert {name: each.steps for name, each in page.boards.items()} == {
         "PC": 250, "OVC": 250, "PC + OVC": 1_000, "Brownian motion": 250}
     np.testing.assert_array_equal(page.results["PC + OVC"].hits[:10], page.boards["PC + OVC"].hits)
 
 
-@pytest.mark.parametrize("parameters, judged", [
-    ({"resolutions": (2, 3), "n_creeps": 4}, []), ({"place_gain": 0.0}, ["T8"])])
-def test_only_claims_about_what_was_run_are_judged(parameters, judged):
-    page = executed("paper_b", **parameters)
-    assert [claim.name for claim in page.judged] == judged and not page.of_paper
+def test_only_claims_about_what_was_run_are_judged(of_others):
+    without_places = executed("paper_b", until="judging", place_gain=0.0)
+    for page, names in ((of_others, []), (without_places, ["T8"])):
+        assert [claim.name for claim in page.judged] == names and not page.of_paper
+
+
+def test_captions_and_prose_speak_of_what_is_drawn(of_others):
+    assert_captions_and_prose_speak_of_what_is_drawn("paper_b", of_others.parts_drawn)
 
 
 def test_a_claim_is_not_judged_if_what_was_run_for_it_is_not_the_paper_s():
-    page = executed("paper_b", reading="calibrated", runs=11)
+    page = judged("calibrated")
     measured = {"paced": [*page.paced.values()], "paying": page.boards["PC + OVC"], "joined": page.joined,
                 "stays": page.stays}
     changed = {"B5": {"paying": other_agent(page.boards["PC + OVC"])}, "B7": {"joined": other_agent(page.joined)},
@@ -60,14 +74,14 @@ def other_agent(result):
     return replace(result, condition=replace(result.condition, agent=neorl.brownian()))
 
 
-def test_the_variations_are_other_values_of_what_the_text_leaves_open():
-    page = executed("paper_b", reading="calibrated", runs=11)
-    assert page.varied["a quarter as long"]["PC + OVC"].agent == page.agents["PC + OVC"]
-    assert len(page.varied) == 10 == len({each["PC + OVC"].condition for each in page.varied.values()})
+def test_the_variations_are_other_values_of_what_the_text_leaves_open(of_others):
+    varied = of_others.varied
+    assert varied["a quarter as long"]["PC + OVC"].agent == of_others.agents["PC + OVC"]
+    assert len(varied) == 10 == len({each["PC + OVC"].condition for each in varied.values()})
 
 
 def test_the_explorer_offers_what_was_run_by_the_paper_s_figures():
-    page = executed("paper_b", reading="calibrated", runs=11)
+    page = judged("calibrated")
     offered = figures.explorer_conditions(page.results, page.place, page.objects, page.joined, True)
     assert next(iter(offered)) == "Paper B, figure 5: place + object-vector cells" and len(offered) == 2 + 2 * 7
     assert offered["Paper B, figure 4A: place cells, N13"] is page.place["N13"]
