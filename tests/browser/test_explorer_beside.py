@@ -15,7 +15,7 @@ from neorl.browser.explorer import OTHER_SPACES, STEPS
 from companion.thesis.reading import TO_THE_LETTER, networks
 
 TANK, PLACES, THINGS = WaterWorld(), place_cells([5, 3]), object_vector_cells([4])
-SIZE = {"steps": 20_000, "runs": 12, "seed": 3, "progress": False}
+SIZE = {"steps": 12_000, "runs": 12, "seed": 3, "progress": False}
 MINUTE = 60 * TANK.fps
 
 
@@ -66,8 +66,8 @@ def test_a_newborn_runs_beside_a_veteran_as_in_python(page):
     visit(page, "#explorer_agent-places_run-2_beside-places_learned-100_minute-0")
     wait_for(page, step="0", secondStep="0", state="paused")
     press(page, "play")
-    wait_for(page, step="20000", secondStep="20000", state="ended")
-    first, second = newborn(PLACES, run=2).advance(20_000), veteran(PLACES, 100, run=2).advance(20_000)
+    wait_for(page, step="12000", secondStep="12000", state="ended")
+    first, second = newborn(PLACES, run=2).advance(12_000), veteran(PLACES, 100, run=2).advance(12_000)
     assert scores(page) == (first, second) and first != second
     expect(page.locator(".named")).to_have_text([re.compile(f"^{name}: [−\\d]") for name in ("Newborn", "Veteran")])
     expect(page.locator(".told")).to_contain_text(re.compile(r"minutes · Newborn: [−\d]+ · Veteran: [−\d]+\."))
@@ -106,15 +106,15 @@ def test_any_other_agent_of_such_a_world_stands_in_the_menus_and_in_the_address(
     wait_for(page, step="0", secondStep="0", state="paused")
     page.get_by_role("combobox", name="Second tank").select_option("things")
     page.get_by_label("has learned for").select_option("10 minutes")
-    first, second = newborn(PLACES).advance(20_000), veteran(THINGS, 10).advance(20_000)
-    wait_for(page, step="20000", state="ended", beside="things", secondScore=f"{second:g}")
+    first, second = newborn(PLACES).advance(12_000), veteran(THINGS, 10).advance(12_000)
+    wait_for(page, step="12000", state="ended", beside="things", secondScore=f"{second:g}")
     assert scores(page) == (first, second)
     expect(page.locator(".named")).to_have_text([re.compile("^places: "), re.compile("^things, a veteran: ")])
     page.wait_for_function("location.hash.includes('_beside-things_learned-10')")
     address = page.evaluate("location.hash")
     visit(page, address.replace("learned-10", "learned-0"))
-    second = newborn(THINGS).advance(20_000)
-    wait_for(page, step="20000", state="ended", beside="things", secondScore=f"{second:g}")
+    second = newborn(THINGS).advance(12_000)
+    wait_for(page, step="12000", state="ended", beside="things", secondScore=f"{second:g}")
     assert scores(page) == (first, second)
 
 
@@ -138,10 +138,10 @@ def test_an_element_is_dropped_into_both_tanks(page):
     page.wait_for_function("document.querySelector('.legend').textContent.includes('changed')")
     assert picture(page, ".second canvas") != before
     press(page, "play")
-    wait_for(page, step="20000", state="ended")
+    wait_for(page, step="12000", state="ended")
     runs = [replace(agent, desires=(*agent.desires, Desire(Place(0.5, 0.5), agent.nodes[0].name, 1.0)))
             for agent in (PLACES, THINGS)]
-    assert scores(page) == tuple(newborn(each).advance(20_000) for each in runs)
+    assert scores(page) == tuple(newborn(each).advance(12_000) for each in runs)
 
 
 def test_the_same_agent_takes_the_settings_of_the_first(page):
@@ -174,8 +174,8 @@ def test_a_comparison_ends_without_stopping_the_first_run(page):
     wait_for(page, beside=None)
     expect(page.locator(".second")).to_be_hidden()
     page.locator('[name="speed"]').fill("10")
-    wait_for(page, step="20000", state="ended")
-    assert float(page.locator(".neorl-explorer").get_attribute("data-score")) == newborn(PLACES).advance(20_000)
+    wait_for(page, step="12000", state="ended")
+    assert float(page.locator(".neorl-explorer").get_attribute("data-score")) == newborn(PLACES).advance(12_000)
     page.wait_for_function("!location.hash.includes('beside')")
 
 
@@ -188,8 +188,8 @@ def test_a_choice_made_while_the_veteran_learns_begins_at_once(page):
         setTimeout(() => Object.assign(root.querySelector('[name="preset"]'), { value: "things" }).dispatchEvent(
             new Event("input", { bubbles: true })), 60);
     }""")
-    wait_for(page, step="20000", condition="things", state="ended", secondStep="20000")
-    assert scores(page) == (newborn(THINGS).advance(20_000), veteran(THINGS, 100).advance(20_000))
+    wait_for(page, step="12000", condition="things", state="ended", secondStep="12000")
+    assert scores(page) == (newborn(THINGS).advance(12_000), veteran(THINGS, 100).advance(12_000))
 
 
 def test_an_agent_of_another_world_stands_only_beside_itself(page):

@@ -13,7 +13,7 @@ from neorl.core.horde import as_vectors
 
 TANK = WaterWorld()
 PLACES = place_cells([5, 3])
-SIZE = {"steps": 20_000, "runs": 12, "seed": 3, "progress": False}
+SIZE = {"steps": 12_000, "runs": 12, "seed": 3, "progress": False}
 
 
 @pytest.fixture(scope="module")
@@ -41,10 +41,10 @@ def test_red_becomes_desirable_in_the_middle_of_the_run(visit):
     press(page, "red")
     wait(page, "ended")
     run = Run(PLACES, TANK, SIZE["seed"], 0)
-    reward = run.advance(10_000)
+    reward = run.advance(6_000)
     run.change(replace(PLACES, desires=[replace(each, valence=1.0) for each in PLACES.desires],
                        policy=Policy(exploration=0.05)))
-    assert float(shown(page, "score")) == reward + run.advance(10_000)
+    assert float(shown(page, "score")) == reward + run.advance(6_000)
     expect(page.locator('[name="valence_red"]')).to_have_value("1")
     expect(page.locator('[name="exploration"]')).to_have_value("0.05")
     expect(page.locator(".said")).to_contain_text("Red is desirable now")
@@ -55,7 +55,7 @@ def test_the_way_to_a_corner_is_shown_once_it_is_learned(visit):
     press(page, "corner")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '0'")
     wait(page, "ended")
-    assert shown(page, "step") == "20000"
+    assert shown(page, "step") == "12000"
     assert page.locator('[name="map"]').input_value() == "PC N5"
     run = Run(PLACES, TANK, SIZE["seed"], 0)
     run.advance(SIZE["steps"])
