@@ -44,7 +44,10 @@ def open_star(open_page, folder):
 
 @pytest.fixture(scope="module")
 def page(open_shared_page, folder):
-    """A page for what readers do one after the other, since each begins with a lesson of 100 minutes."""
+    """A page for what readers do one after the other, since each begins with a lesson of 100 minutes.
+
+    It runs on until all tests of the file are over, so those that use it come last.
+    """
     return opened(open_shared_page, folder)
 
 
@@ -57,28 +60,6 @@ def wait_for(page, seconds):
                            arg=seconds)
 
 
-def test_the_page_runs_what_python_runs(page):
-    wait_for(page, 2)
-    step, at = page.evaluate("(({ step, at }) => [step, at])(document.querySelector('.neorl-star').dataset)")
-    run = star.experienced()
-    run.advance(int(step))
-    assert [*map(float, at.split())] == [*(run.world_state.scene.position / star.TANK.width)]
-
-
-def test_the_agent_follows_the_star_that_its_reader_drags(page):
-    tank = page.locator(".tank canvas").bounding_box()
-    found = []
-    for x, y in ((0.15, 0.85), (0.85, 0.85), (0.15, 0.15), (0.85, 0.15)):
-        handle = page.locator("button.star").bounding_box()
-        page.mouse.move(handle["x"] + handle["width"] / 2, handle["y"] + handle["height"] / 2)
-        page.mouse.down()
-        page.mouse.move(tank["x"] + x * tank["width"], tank["y"] + y * tank["height"], steps=4)
-        page.mouse.up()
-        wait_for(page, 16)
-        found.append(distances(page)[0])
-    assert sorted(found)[2] < 0.3, found  # it may be held up at a wall once
-
-
 def test_the_agent_is_closer_to_the_star_than_one_that_knows_nothing():
     runs = [star.experienced(), neorl.Run(star.with_star(star.AGENT, star.START), star.TANK, star.SEED)]
     means = []
@@ -89,36 +70,6 @@ def test_the_agent_is_closer_to_the_star_than_one_that_knows_nothing():
             found.append(np.hypot(*(run.record(1_500).positions / star.TANK.width - place).T).mean())
         means.append(np.mean(found))
     assert means[0] < 0.2 and means[1] > 2 * means[0], means
-
-
-def test_the_star_moves_by_keyboard_and_by_a_click_and_says_where_it_is(page):
-    handle, tank = page.locator("button.star"), page.locator(".tank canvas")
-    box = tank.bounding_box()
-    tank.click(position={"x": box["width"] / 2, "y": box["height"] / 2})
-    page.wait_for_selector("button.star[aria-label^='The star, 50 % from the left and 50 % from the top']")
-    handle.focus()
-    page.keyboard.press("ArrowLeft")
-    page.keyboard.press("ArrowDown")
-    page.wait_for_selector("button.star[aria-label^='The star, 46 % from the left and 54 % from the top']")
-    assert page.evaluate("scrollY") == 0
-
-
-def test_the_switches_forget_and_make_red_good_and_are_undone(page):
-    lived = page.locator(".lived")
-    assert lived.inner_text() == "It has learned for 100 minutes, without a star."
-    forget, red = (page.locator(f"[data-action={name}]") for name in ("forget", "red"))
-    forget.click()
-    page.wait_for_selector("[data-action=forget][aria-pressed=true]")
-    wait_for(page, 1)
-    assert lived.inner_text() == "It has forgotten everything."
-    red.click()
-    page.wait_for_selector("[data-action=red][aria-pressed=true]")
-    forget.click()
-    page.wait_for_selector("[data-state=learning]")
-    assert re.fullmatch(r"It learns for 100 minutes: \d+ …", lived.inner_text())
-    page.wait_for_selector("[data-state=running]")
-    red.click()
-    page.wait_for_selector("[data-action=red][aria-pressed=false]")
 
 
 def test_it_pauses_out_of_view_and_begins_paused_for_readers_who_want_less_motion(open_star):
@@ -175,3 +126,55 @@ def test_the_star_is_wanted_by_every_node_and_nothing_else_changes():
     assert tuple(own) == star.AGENT.desires
     assert {first.target, second.target} == {node.name for node in star.AGENT.nodes}
     assert first.source == neorl.Place(0.2, 0.3) and np.isclose(first.valence, star.VALENCE)
+
+
+def test_the_page_runs_what_python_runs(page):
+    wait_for(page, 2)
+    step, at = page.evaluate("(({ step, at }) => [step, at])(document.querySelector('.neorl-star').dataset)")
+    run = star.experienced()
+    run.advance(int(step))
+    assert [*map(float, at.split())] == [*(run.world_state.scene.position / star.TANK.width)]
+
+
+def test_the_agent_follows_the_star_that_its_reader_drags(page):
+    tank = page.locator(".tank canvas").bounding_box()
+    found = []
+    for x, y in ((0.15, 0.85), (0.85, 0.85), (0.15, 0.15), (0.85, 0.15)):
+        handle = page.locator("button.star").bounding_box()
+        page.mouse.move(handle["x"] + handle["width"] / 2, handle["y"] + handle["height"] / 2)
+        page.mouse.down()
+        page.mouse.move(tank["x"] + x * tank["width"], tank["y"] + y * tank["height"], steps=4)
+        page.mouse.up()
+        wait_for(page, 16)
+        found.append(distances(page)[0])
+    assert sorted(found)[2] < 0.3, found  # it may be held up at a wall once
+
+
+def test_the_star_moves_by_keyboard_and_by_a_click_and_says_where_it_is(page):
+    handle, tank = page.locator("button.star"), page.locator(".tank canvas")
+    box = tank.bounding_box()
+    tank.click(position={"x": box["width"] / 2, "y": box["height"] / 2})
+    page.wait_for_selector("button.star[aria-label^='The star, 50 % from the left and 50 % from the top']")
+    handle.focus()
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("ArrowDown")
+    page.wait_for_selector("button.star[aria-label^='The star, 46 % from the left and 54 % from the top']")
+    assert page.evaluate("scrollY") == 0
+
+
+def test_the_switches_forget_and_make_red_good_and_are_undone(page):
+    lived = page.locator(".lived")
+    assert lived.inner_text() == "It has learned for 100 minutes, without a star."
+    forget, red = (page.locator(f"[data-action={name}]") for name in ("forget", "red"))
+    forget.click()
+    page.wait_for_selector("[data-action=forget][aria-pressed=true]")
+    wait_for(page, 1)
+    assert lived.inner_text() == "It has forgotten everything."
+    red.click()
+    page.wait_for_selector("[data-action=red][aria-pressed=true]")
+    forget.click()
+    page.wait_for_selector("[data-state=learning]")
+    assert re.fullmatch(r"It learns for 100 minutes: \d+ …", lived.inner_text())
+    page.wait_for_selector("[data-state=running]")
+    red.click()
+    page.wait_for_selector("[data-action=red][aria-pressed=false]")
