@@ -1,6 +1,6 @@
 """A small world of a user's own, for tests: steps in a square pond, whose lily pad ends an episode.
 
-Run as a program, this file sends the world, then of the main program, and an agent to processes started by a method.
+Run as a program, this file sends the world, then of the main program, and an agent to processes started by methods.
 """
 
 import subprocess
@@ -62,7 +62,7 @@ def always(action):
     return choose
 
 
-def main(method):
+def main(*methods):
     import cloudpickle
     from gymnasium.vector import AsyncVectorEnv
 
@@ -72,11 +72,12 @@ def main(method):
                   policy=Policy(0.9, choose=always(1)))
     condition = Condition(agent, Pond(), 5_000, 2)
     here = simulate(**condition.choices, progress=False)
-    with ProcessPoolExecutor(1, get_context(method)) as pool:
-        assert list(sweep([condition], pool, progress=False, cache=False)) == [here] and here.totals.any()
-    envs = AsyncVectorEnv([lambda: gym.WorldEnv(Pond())] * 2, context=method)
-    assert (envs.reset(seed=3)[0] == gym.VectorWorldEnv(Pond(), 2).reset(seed=3)[0]).all()
-    envs.close()
+    for method in methods:
+        with ProcessPoolExecutor(1, get_context(method)) as pool:
+            assert list(sweep([condition], pool, progress=False, cache=False)) == [here] and here.totals.any()
+        envs = AsyncVectorEnv([lambda: gym.WorldEnv(Pond())], context=method)
+        assert (envs.reset(seed=3)[0] == gym.VectorWorldEnv(Pond(), 1).reset(seed=3)[0]).all()
+        envs.close()
     work = cloudpickle.dumps(lambda: simulate(**condition.choices, progress=False).totals.tolist())
     # A worker such as those of loky and Dask, which does not know the main program.
     elsewhere = [sys.executable, "-c", "import pickle, sys\nprint(pickle.load(sys.stdin.buffer)())"]

@@ -78,7 +78,7 @@ READINGS = {
 
 @pytest.mark.parametrize("name", READINGS)
 def test_a_run_equals_the_rules_in_plain_python(name):
-    agent, world, steps = READINGS[name], WaterWorld(width=100, n_creeps=2, win_reward=5.0), 1_000
+    agent, world, steps = READINGS[name], WaterWorld(width=100, n_creeps=2, win_reward=5.0), 600
     run = Run(agent, world, seed=3, run=2)
     brought = run.advance(steps)
     rewards, q = simulate(agent, world, steps, seed=3, run=2)

@@ -201,9 +201,9 @@ def test_kernels_that_workers_cannot_import_are_refused(cluster, tmp_path, monke
 
 
 @pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
-@pytest.mark.parametrize("method", [each for each in get_all_start_methods() if each != "fork"])
-def test_worlds_and_kernels_of_the_main_program_reach_other_processes(method):
-    subprocess.run([sys.executable, pond.__file__, method], check=True)
+def test_worlds_and_kernels_of_the_main_program_reach_other_processes():
+    methods = [each for each in get_all_start_methods() if each != "fork"]
+    subprocess.run([sys.executable, pond.__file__, *methods], check=True)
 
 
 PAGE = Path(__file__).parents[2] / "book" / "running.md"
