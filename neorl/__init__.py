@@ -40,6 +40,7 @@ from neorl.agents.papers import (brownian, multimodal, network_a, network_b, net
                                  place_cells)
 from neorl.agents.rules import CALIBRATED, GREEDY, TO_THE_LETTER, Contacts, Learning, Policy
 from neorl.core import modality
+from neorl.core.coordinates import sense, tune
 from neorl.core.direction import heading, turn
 from neorl.core.horde import learn, superpose
 from neorl.core.maps import NresMap
@@ -67,7 +68,8 @@ __all__ = ["ABSENT", "Actions", "Agent", "Arena", "Arm", "Axis", "CALIBRATED", "
            "Desire", "Dynamics", "Estimate", "GREEDY", "Learner", "Learning", "Modality", "Node", "NresMap", "Place",
            "Policy", "Result", "Run", "Scene", "TO_THE_LETTER", "Trajectory", "Vessel", "WaterMaze", "WaterWorld",
            "World", "array", "cartesian", "estimate", "execute", "greedy", "heading", "kernel", "kernel_maker", "learn",
-           "modality", "polar", "randint", "simulate", "softmax", "superpose", "sweep", "turn", "uniform", "walls",
+           "modality", "polar", "randint", "sense", "simulate", "softmax", "superpose", "sweep", "tune", "turn",
+           "uniform", "walls",
            "brownian", "forager", "multimodal", "network_a", "network_b", "network_c", "network_d",
            "object_vector_cells", "place_cells"]
 
