@@ -299,6 +299,7 @@ def _code(kernel, life, record):
     dispatcher = _entry(kernel, life, record)
     (compiled,) = dispatcher.overloads.values()
     code = compiled.library.get_llvm_str()
+    # As text: llvmlite has no way to change the target and the linkage of code that it has parsed.
     code = re.sub(r"target datalayout = .*", f'target datalayout = "{LAYOUT}"', code)
     code = re.sub(r"target triple = .*", f'target triple = "{TRIPLE}"', code)
     code = re.sub(r'"target-(cpu|features)"="[^"]*"', "", code)
