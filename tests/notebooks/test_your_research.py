@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from page_cells import executed
 
+pytestmark = pytest.mark.filterwarnings("ignore:invalid escape sequence")  # of RatInABox, where it is first compiled
+
 
 @pytest.fixture(scope="module")
 def page():
