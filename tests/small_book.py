@@ -1,6 +1,6 @@
 """A book of three short notebooks in a tree of its own, built as ``make book`` builds the real one.
 
-Of its notebooks, one is needed by others, one needs it, and the conclusion reads the records of both.
+The conclusion comes last.
 """
 
 import json
@@ -30,7 +30,6 @@ lines = "".join(f"<path d='M{k} 0V{k % 7}'/>" for k in range(200))"""
 DRAW = """SVG(f"<svg xmlns='http://www.w3.org/2000/svg' width='75pt' height='30pt'>{lines}<!--{lines * 80}--></svg>")"""
 FIND_SHARES = "report.save('assumptions', shares={'A2': {'agrees': 1, 'measured': 4}})"
 CONCLUDE = """from companion.page import report
-print(sorted(report.load()["shares"].items()))
 report.save("chapter_5")"""
 CONFIG = """title: A small book
 only_build_toc_files: true

@@ -23,11 +23,10 @@ from traitlets.config import Config
 from computing.cells import of_page
 from computing.excerpts import save_figures, save_widgets, without_ground
 from computing.programs import with_programs
-from neorl.common.files import cache_folder, write_whole
+from neorl.common.files import cache_folder
 
 ROOT = Path(__file__).resolve().parents[2]
 CHAPTERS = ROOT / "book" / "chapters"
-CONCLUSION = "chapter_5"  # reads what all others have found
 GLOSSARY = ROOT / "book" / "glossary.md"
 
 
@@ -65,15 +64,15 @@ def compute(notebook, parameters):
     work = CHAPTERS / f".{notebook.stem}"  # always the same place, so that the remains of a killed process are cleared
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
-    give_claims(notebook)
+    claims_of(notebook).unlink(missing_ok=True)
     execute(notebook, work / notebook.name, parameters)
     executed = nbformat.read(work / notebook.name, nbformat.NO_CONVERT)
     for cell in executed.cells:  # links are written for notebooks/, but the page is in book/chapters/
         cell.source = link_terms(cell.source).replace("](../book/", "](../")
         for output in cell.get("outputs", []):
             shown = output.get("data", {})
-            if "text/markdown" in shown:
-                shown["text/markdown"] = shown["text/markdown"].replace(f'"{CLAIMS_PAGE}', '"../claims.html')
+            for text in {"text/markdown", "text/html"} & shown.keys():
+                shown[text] = shown[text].replace(f'"{CLAIMS_PAGE}', '"../claims.html')
             if "image/svg+xml" in shown:
                 shown["image/svg+xml"] = without_ground(shown["image/svg+xml"])
     executed.cells = with_programs(of_page(executed.cells, parameters))
@@ -105,23 +104,13 @@ def of_notebook(notebook, parameters):
     return parameters
 
 
-def give_claims(notebook):
-    """Remove the cached record of a notebook's claims; the conclusion finds those of the pages, and no others."""
-    claims_of(notebook).unlink(missing_ok=True)
-    if notebook.stem == CONCLUSION:
-        shutil.rmtree(claims_of(notebook).parent, ignore_errors=True)
-        for page, record in records().items():
-            if page != CONCLUSION:
-                write_whole(claims_of(Path(page)), record.read_bytes())
-
-
 def claims_of(notebook):
     """Where a notebook saves its claims."""
     return cache_folder() / "claims" / f"{notebook.stem}.json"
 
 
 def records():
-    """The records of claims of the pages whose notebooks are there: {name: path}."""
+    """What the pages whose notebooks are there have saved of claims: {name: path}."""
     found = {each.stem: CHAPTERS / f"{each.stem}.claims.json" for each in sorted((ROOT / "notebooks").glob("*.ipynb"))}
     return {name: path for name, path in found.items() if path.exists()}
 

@@ -21,6 +21,7 @@ from dataclasses import replace
 import numpy as np
 from companion.chapter_5 import trials
 from companion.page import report
+from companion.page.report import RECORD
 from companion.paper_b.trials import mean_stays
 from companion.thesis import claims
 from companion.thesis.reading import LENGTHS, NAMES, PRIMES, READINGS, conditions, judge
@@ -32,7 +33,6 @@ from neorl.common.files import write_whole
 from neorl.experiments.condition import source_digest
 from neorl.experiments.simulation import sweep
 
-RECORD = ROOT / "book" / "record.json"
 SEED = 20_261_128
 CALIBRATED = {"layers": 500, "single": 200, "modal": 500, "pace": 500, "networks": 1_000, "revaluing": 200,
               "resolutions": 100, "long": 20}
@@ -49,7 +49,9 @@ SAMPLED = (("brownian", 8), ("layer", 7), "layers", ("single", 50), ("place", "a
 def main():
     if changed := output("git", "status", "--porcelain", "--", ".", f":!{RECORD.relative_to(ROOT)}"):
         sys.exit(f"the work tree must be clean, so that the commit has all that was computed, but it has:\n{changed}")
-    content = of_book({part: {} for part in report.PARTS})
+    content = {part: {} for part in report.PARTS}
+    if RECORD.exists():
+        content |= json.loads(RECORD.read_text(encoding="utf-8"))
     for part, of_pages in built().items():
         content[part] = content[part] | of_pages
     for name, reading in READINGS.items():
@@ -62,11 +64,6 @@ def main():
         sys.exit(f"every claim must be judged, but not {', '.join(missing)}: make book RUNS={OF_PAGES}, then {REMEDY}")
     content = rounded(content) | {"sample": sample()}
     write_whole(RECORD, (json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False) + "\n").encode())
-
-
-def of_book(build):
-    """The committed record, or without one the build's own."""
-    return json.loads(RECORD.read_text(encoding="utf-8")) if RECORD.exists() else build
 
 
 def built():

@@ -1,17 +1,12 @@
-"""The answer on the page of claims: three sentences, a figure with a row for each claim, what decides, and what fails.
+"""The answer on the page of claims, but for its figure: what is reproduced, what decides, and what fails.
 
 1. Verdicts are those of the record. Shares of readings, and the choices that decide, are from the table of readings
    that were run at the papers' lengths (`companion.study.sensitivity`).
-2. `answers.toml` has each claim in a few words, and why some fail; all else is computed.
+2. Claims in a few words, and why some fail, are with their statements; all else is computed.
 """
 
-import tomllib
-from collections import Counter
-from html import escape
-from pathlib import Path
 
-from companion.page import marks, opening, report
-from companion.page.opening import anchor
+from companion.page import opening, recorded, report
 from companion.page.wording import table
 from companion.study import sensitivity
 from companion.study.calibration_targets import CLAIMS as FITTED
@@ -19,32 +14,26 @@ from companion.thesis.pins import PINS
 from companion.thesis.priors import WITHIN
 from companion.thesis.reading import TO_THE_LETTER, Reading
 from companion.thesis.statements import AGENTS, APART, CLAIMS, STATEMENTS
-from companion.thesis.verdict import FAILED, RUNS_FOR_A_VERDICT
+from companion.thesis.verdict import FAILED
 
-ANSWERS = tomllib.loads((Path(__file__).parents[1] / "answers.toml").read_text(encoding="utf-8"))
 NOT_FITTED = tuple(name for name in AGENTS if name not in FITTED)
 BLOCKS = {"Used to choose the calibrated reading": FITTED, "Not used": NOT_FITTED,
           "By proof or counting, about our code, or a report": APART}
 DECIDING = 5  # choices that are listed
 PULLING = 5  # pairs of claims
 NEVER = "None of the readings drawn evenly within the text agrees."
-CAPTION = ("Bars: the share of readings, drawn evenly within the text and run twice at the papers’ lengths, in which "
-           "the means agree with the thesis; they were counted for the claims used for the fit. A claim leads to its "
-           "line below.")
+REPRODUCED = "Claims", "Reproduced to the letter", "Reproduced calibrated"
 
 
 def headline(record):
-    """What is reproduced, to the letter and calibrated, in two sentences. record: see `report.load`, or committed."""
-    if not {report.verdict(record, name) for name in AGENTS} - {"no verdict", report.NOT_COMPUTED}:
-        return (f"This book judges the thesis’s {len(AGENTS)} claims about agents. Verdicts need {RUNS_FOR_A_VERDICT} "
-                "runs of each condition, and this build has fewer.")
+    """What is reproduced, to the letter and calibrated, in three sentences. record: see `report.record`."""
     letter, calibrated = (_reproduced(record[part], AGENTS) for part in ("letter", "claims"))
-    return (f"With every gap of the text filled by what it prints, or by the simplest value (“to the letter”), "
-            f"{letter} of the thesis’s {len(AGENTS)} claims about agents {'is' if letter == 1 else 'are'} reproduced "
-            f"({runs(record)} runs of each condition). With {_departing()} of the {len(WITHIN)} gaps filled by other "
-            f"values, which fit best (“calibrated”), {calibrated} are: {_reproduced(record['claims'], FITTED)} of the "
-            f"{len(FITTED)} claims that were used for the fit, and {_reproduced(record['claims'], NOT_FITTED)} of the "
-            f"other {len(NOT_FITTED)}.")
+    return (f"The thesis makes {len(AGENTS)} claims about its agents. With every gap of its text filled by the "
+            f"plainest choice (“to the letter”), {letter} of them {'is' if letter == 1 else 'are'} reproduced; with "
+            f"{_departing()} of the gaps filled otherwise, as fits best (“calibrated”), {calibrated} are: "
+            f"{_reproduced(record['claims'], FITTED)} of the {len(FITTED)} by which these choices were made, and "
+            f"{_reproduced(record['claims'], NOT_FITTED)} of the other {len(NOT_FITTED)}. Each condition has "
+            f"{runs(record)} runs.")
 
 
 def runs(record):
@@ -82,52 +71,18 @@ def rate_of_paper_a(record):
             f"{changed}.")
 
 
-def figure(record):
-    """A row for each claim in three blocks, as an HTML table: the share of readings that agree, and two verdicts."""
-    heads = "".join(f'<th scope="col">{head}</th>' for head in ("Claim", "Readings that agree", "To the letter",
-                                                                "Calibrated"))
-    parts = [f'<table class="answer"><thead><tr>{heads}</tr></thead>']
-    for title, names in BLOCKS.items():
-        ordered = sorted(names, key=lambda name: -_share(record, name)) if names is FITTED else names
-        rows = "".join(_row(record, name) for name in ordered)
-        parts.append(f'<tbody><tr><th colspan="4" scope="rowgroup">{title}</th></tr>{rows}</tbody>')
-    return "".join([*parts, "</table>"])
+def reproduced(record):
+    """How many claims of each block are reproduced, of those that a reading judges: rows below `REPRODUCED`."""
+    return [[title, *(f"{_reproduced(record[part], names)} of {sum(name in record[part] for name in names)}"
+                      for part in ("letter", "claims"))] for title, names in BLOCKS.items()]
 
 
 def summary(record):
-    """The figure, small: in each block the verdicts of its claims as symbols, under both readings, as an HTML table."""
-    heads = "".join(f'<th scope="col">{head}</th>' for head in ("Claims", "To the letter", "Calibrated"))
-    rows = []
-    for title, names in BLOCKS.items():
-        cells = []
-        for found in (record["letter"], record["claims"]):
-            count = counts({"claims": found}, [name for name in names if name in found])
-            symbols = "".join(f'<span class="{marks.MARKS[each].css}">{marks.symbol(each) * count[each]}</span>'
-                              for each in count)
-            words = ", ".join(f"{number} {verdict}" for verdict, number in count.items())
-            shown = f'<span role="img" aria-label="{words}" title="{words}">{symbols}</span>' if count else ""
-            cells.append(f"<td>{shown}</td>")
-        rows.append(f'<tr><th scope="row"><a href="claims.html">{title}</a></th>{"".join(cells)}</tr>')
-    return f'<table class="summary"><thead><tr>{heads}</tr></thead><tbody>{"".join(rows)}</tbody></table>'
-
-
-def counts(record, names):
-    """The number of some claims with each verdict: {verdict: count}, without verdicts that none has."""
-    found = Counter(report.verdict(record, name) for name in names)
-    return {verdict: found[verdict] for verdict in marks.MARKS if found[verdict]}
-
-
-def _row(record, name):
-    share, cell = _share(record, name), ""
-    if share >= 0:
-        count = record["shares"][name]
-        title = f"{count['agrees']} of {count['measured']} readings"
-        cell = (f'<span class="bar" title="{title}"><span style="width:{100 * share:.0f}%"></span></span>'
-                f"<span>{100 * share:.0f}\u00a0%</span>")
-    verdicts = [marks.html(found[name]["verdict"]) if name in found else ""
-                for found in (record["letter"], record["claims"])]
-    return (f'<tr><th scope="row"><a href="#{anchor(name)}"><b>{name}</b> {escape(ANSWERS["short"][name])}</a></th>'
-            f'<td class="share">{cell}</td>{"".join(f"<td>{verdict}</td>" for verdict in verdicts)}</tr>')
+    """`reproduced` as an HTML table, which leads to the claims."""
+    heads = "".join(f'<th scope="col">{head}</th>' for head in REPRODUCED)
+    rows = "".join(f'<tr><th scope="row"><a href="claims.html">{title}</a></th>'
+                   f"{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>" for title, *cells in reproduced(record))
+    return f'<table class="summary"><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>'
 
 
 def decides(found):
@@ -149,9 +104,10 @@ def fails(record):
     both = [name for name in CLAIMS if all(name in found and found[name]["verdict"] in FAILED
                                            for found in (record["claims"], record["letter"] or record["claims"]))]
     always = [name for name in CLAIMS if report.verdict(record, name) in FAILED
-              and (name in ANSWERS["why"] or name in both and _share(record, name) == 0)]
+              and (STATEMENTS[name].why or name in both and _share(record, name) == 0)]
     lines = [f"- **{_link(name)}** {STATEMENTS[name].text}. Thesis: {STATEMENTS[name].thesis}; here "
-             f"{report.number(record['claims'][name])}. {ANSWERS['why'].get(name, NEVER)}" for name in always]
+             f"{report.number(record['claims'][name])}. "
+             f"{recorded.said(record['claims'][name], STATEMENTS[name].why or NEVER)}" for name in always]
     others = [_link(name) for name in both if name not in always]
     return "\n".join([*lines, f"\nContradicted under the two readings of the figure as well: {_listed(others)}."
                       if others else ""])
@@ -213,7 +169,7 @@ def _link(name):
 
 
 def _lower(name):
-    text = ANSWERS["short"][name]
+    text = STATEMENTS[name].short
     return text if text[1].isdigit() or text.startswith("Q-") else text[0].lower() + text[1:]
 
 

@@ -2,22 +2,20 @@
 the star."""
 
 from companion.page import report
-from computing.compute import CHAPTERS, ROOT, records
-from computing.record import of_book
+from computing.compute import CHAPTERS, ROOT
 
 from neorl.common.files import write_whole
 from writing import contents, ledger, rules, star
 
 
-def of_claims(paths, chapters):
-    """The texts to include, {name of the file: text}. paths: of records of claims. chapters: the folder of pages."""
-    build, toc = report.load(paths), (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
-    record = of_book(build)
+def pages(chapters):
+    """The texts to include, {name of the file: text}. chapters: the folder of the computed pages."""
+    record, toc = report.record(), (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
     return {"claims-rules.md": rules.page(record), "claims-front.html": ledger.front(record),
             "star.html": star.page(), "errata-table.md": report.errata(),
-            "contents.md": contents.pictures(toc, chapters), "claims-table.md": ledger.page(record, build)}
+            "contents.md": contents.pictures(toc, chapters), "claims-table.md": ledger.page(record)}
 
 
 if __name__ == "__main__":
-    for name, text in of_claims(records().values(), CHAPTERS).items():  # last the one that make looks for
+    for name, text in pages(CHAPTERS).items():  # last the one that make looks for
         write_whole(CHAPTERS / name, text.encode())

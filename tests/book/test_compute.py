@@ -1,15 +1,13 @@
 """A page of the book, computed from its notebook, and what other pages include of it."""
 
 import base64
+import json
 
 from computing import compute
 from computing import excerpts
 import nbformat
 import pytest
-from computing import record
-from writing import tables
 
-from companion.thesis.statements import STATEMENTS
 
 
 @pytest.fixture
@@ -83,30 +81,14 @@ counter"""
 
 
 @pytest.mark.filterwarnings("ignore")
-def test_what_a_notebook_has_found_is_beside_its_page_and_in_the_table_of_all_claims(notebook, monkeypatch):
+def test_what_a_notebook_has_found_is_beside_its_page(notebook):
     change_last_cell(notebook, "from companion.page import report\nreport.save('page', shares={'A2': "
                                "{'agrees': 1, 'measured': 4}})")
     compute.compute(notebook, {"runs": 3})
-    monkeypatch.setattr(record, "RECORD", notebook.parent / "record.json")  # there is none
-    written = tables.of_claims([compute.CHAPTERS / "page.claims.json"], compute.CHAPTERS)["claims-table.md"]
-    assert "1 of 4 readings" in written
-    assert written.count("not computed in this build</span></summary>") == len(STATEMENTS)
+    assert json.loads((compute.CHAPTERS / "page.claims.json").read_text())["shares"]["A2"]["measured"] == 4
     change_last_cell(notebook, "pass")
     compute.compute(notebook, {"runs": 3})
     assert not (compute.CHAPTERS / "page.claims.json").exists()
-
-
-def test_the_conclusion_finds_the_claims_of_the_pages_and_no_others(tmp_path, cache_folder, monkeypatch):
-    monkeypatch.setattr(compute, "CHAPTERS", tmp_path)
-    for name in ("gone", "chapter_5", "paper_a"):
-        (tmp_path / f"{name}.claims.json").write_text(f'"{name}"')
-    stray, other = cache_folder / "claims" / "stray.json", compute.ROOT / "notebooks" / "paper_b.ipynb"
-    stray.parent.mkdir()
-    stray.write_text("trunc")
-    compute.give_claims(other)
-    assert stray.exists()
-    compute.give_claims(other.with_name("chapter_5.ipynb"))
-    assert {path.name: path.read_text() for path in stray.parent.iterdir()} == {"paper_a.json": '"paper_a"'}
 
 
 def test_links_into_the_glossary_become_references_to_its_terms():

@@ -14,6 +14,7 @@ from computing.programs import figure_of
 
 from companion import page as toolkit
 from companion.page import beginning
+from companion.page.recorded import SHOWN
 from companion.thesis.statements import STATEMENTS
 
 NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted(FOLDER.glob("*.ipynb"))}
@@ -30,9 +31,14 @@ def test_a_page_shows_its_experiment_in_one_cell(cells):
     assert not HIDDEN & tags(experiment) and 8 <= len(experiment.source.splitlines()) <= 20
     assert re.search(r"\b(sweep|simulate|Learner|Run)\(", experiment.source)
     drawn = [cells.index(cell) for cell in cells if figure_of(cell)]
-    boxes = [cells.index(cell) for cell in cells if "page.found(" in cell.source]
-    assert max([cells.index(experiment), *boxes]) < min(drawn), "the box and the experiment come before figures"
+    assert cells.index(experiment) < min(drawn), "the experiment comes before figures"
     assert any("## Variations to try\n" in cell.source for cell in cells)
+
+
+def test_the_recorded_answer_is_below_the_question_of_a_page_that_has_claims():
+    for name in SHOWN:
+        below = NOTEBOOKS[name].cells[1]
+        assert below.id == "answer" and re.search(r"\banswer\(", below.source) and "remove-input" in tags(below)
 
 
 def test_the_lines_of_open_cells_fit_on_a_page(cells):
@@ -62,7 +68,8 @@ def test_what_the_book_folds_is_folded_in_jupyterlab(cells):
 def test_what_a_page_says_of_its_experiment_comes_from_the_results(cells):
     """Below the experiment, cells that draw or write read no parameter but the seed: it may have changed since."""
     code = [cell for cell in cells if cell.cell_type == "code"]
-    parameters = {statement.target.id for statement in ast.parse(code[0].source).body} - {"seed"}
+    (chosen,) = [cell for cell in code if "parameters" in tags(cell)]
+    parameters = {statement.target.id for statement in ast.parse(chosen.source).body} - {"seed"}
     (experiment,) = [place for place, cell in enumerate(code) if "experiment" in tags(cell)]
     for cell in code[experiment + 1:]:
         if HIDDEN & tags(cell) or figure_of(cell) or "Markdown(" in cell.source:
@@ -155,7 +162,8 @@ def test_a_parameter_that_a_notebook_does_not_have_is_refused_unless_it_is_paper
 
 
 def test_a_notebook_begins_with_typed_parameters_and_hidden_imports(cells):
-    parameters, imports = [cell for cell in cells if cell.cell_type == "code"][:2]
+    answer, *rest = [cell for cell in cells if cell.cell_type == "code"]
+    parameters, imports = rest[:2] if answer.id == "answer" else (answer, rest[0])
     assert [cell for cell in cells if "parameters" in tags(cell)] == [parameters]
     statements = ast.parse(parameters.source).body
     assert all(isinstance(statement, ast.AnnAssign) for statement in statements)

@@ -16,7 +16,6 @@ from neorl.statistics import Estimate
 
 CLAIM = {"here": [1.0, 0.5, 1.5], "runs": 100, "verdict": "undecided", "numbers": {}, "parts": [], "together": 1}
 FINDINGS = {"claims": dict.fromkeys(STATEMENTS, CLAIM), "letter": {}, "shares": {"A2": {"readings": 4}}}
-recorded = pytest.mark.skipif(not record.RECORD.exists(), reason="nothing is recorded")
 
 
 def explained(found):
@@ -36,15 +35,13 @@ def unexplained(found):
             if each["verdict"] in VERDICTS[:5] and each["verdict"] != explained(each)}
 
 
-@recorded
 def test_the_record_holds():
-    moved = record.moved(record.of_book(None))
+    moved = record.moved(report.record())
     assert not moved, f"{'; '.join(moved)}: runs are not as recorded: {record.REMEDY}"
 
 
-@recorded
 def test_the_record_is_of_all_claims_and_its_folds_explain_its_verdicts():
-    found = record.of_book(None)
+    found = report.record()
     assert {*found["claims"]} == {*STATEMENTS} and unexplained(found) == {}
     assert {name for name, each in found["claims"].items() if each["runs"] < record.OF_PAGES} <= {
         "A10", "C5", "T2", "T3", "T5"}  # stored runs, and times
@@ -132,12 +129,3 @@ def test_a_work_tree_with_changes_is_refused(made):
     with pytest.raises(SystemExit, match="the work tree must be clean, .*\n M neorl/common/checks.py"):
         made(" M neorl/common/checks.py")
     assert not record.RECORD.exists()
-
-
-def test_without_a_record_a_build_shows_its_own(monkeypatch, tmp_path):
-    monkeypatch.setattr(record, "RECORD", tmp_path / "record.json")
-    assert record.of_book(FINDINGS) is FINDINGS
-
-
-def test_numbers_are_recorded_to_six_digits():
-    assert record.rounded({"here": [0.123456789, None, -1e-9, 7]}) == {"here": [0.123457, None, -1e-9, 7]}

@@ -4,9 +4,8 @@ import re
 from pathlib import Path
 
 import numpy as np
-import pytest
 
-from companion.page import marks, opening, report
+from companion.page import marks, report
 from companion.study import provenance
 from companion.paper_a import superposed_field
 from companion.thesis.pins import PINS
@@ -17,7 +16,7 @@ from neorl import WaterWorld, superpose
 from neorl.drawing.style import linear_light
 from companion.thesis.reading import Reading, changed
 from neorl.statistics import Estimate
-from companion.thesis.verdict import VERDICTS, Claim
+from companion.thesis.verdict import VERDICTS
 
 STYLE_SHEET = (Path(__file__).parents[2] / "book" / "vendor" / "book.css").read_text()
 GROUNDS = ("#ffffff", "#f3f4f5"), ("#121212", "#29313d"), ("#ffffff",)  # pages and boxes, light, dark and printed
@@ -47,32 +46,6 @@ def test_every_verdict_has_a_mark_whose_colour_is_legible_on_all_grounds():
         for name, colour in colours.items():
             for ground in grounds:
                 assert contrast(colour, ground) >= 4.5, (name, ground)
-
-
-def claims(runs=10, full_length=True, **verdicts):
-    return [Claim(name, Estimate(0.1, 0.05, 0.2), {}, runs, verdict, full_length)
-            for name, verdict in verdicts.items()]
-
-
-def test_a_box_has_verdicts_by_reading_with_links_or_says_that_there_are_none():
-    words, calibrated = opening.found(claims(A2="reproduced", A3="partly", A4="reproduced"),
-                                      "calibrated").split("\n\n")[2:4]
-    nameless = opening.found(claims(C1="not testable", T9="partly", B5="refuted by proof", C2="undecided"))
-    assert words == "Calibrated: the weakest single map earns 0.10 [0.05, 0.20] a second more than Brownian motion."
-    names = re.findall(r'<a href="../book/claims.md#claim-\w+" title="[^"]+">(\w+)</a>', calibrated)
-    assert names == ["A2", "A4", "A3"]
-    assert re.sub("<[^>]+>|\u00a0", "", nameless).split("\n\n")[2] == (
-        "?C2 undecided (more runs would tell); ◇C1 not testable (the agents learned too little). "
-        "Counted apart: ∎B5 refuted by proof. Beside the claims: ◐T9 partly")
-    assert opening.found([], "calibrated") == ""
-
-
-@pytest.mark.parametrize("runs, full_length, said", [
-    (9, True, "here are 9."),
-    (12, False, "here are 12, some shorter.")])
-def test_a_box_of_few_or_short_runs_has_no_verdicts(runs, full_length, said):
-    box = opening.found(claims(runs, full_length, A2="reproduced"))
-    assert "A2" not in box and "**Quick look: no verdicts.**" in box and said in box
 
 
 def test_variants_of_a_reading_are_those_that_differ():

@@ -2,21 +2,19 @@
 
 1. Each rests on some claims about agents, of which four *carry* it; all others about agents are the ground of both.
 2. A conclusion *stands* if all that carry it are reproduced, *in part* if any is, wholly or partly, *does not stand* if
-   all have failed, and is *open* otherwise. It is *not judged* while none of them has a verdict.
-
-Records are as `companion.page.report.load` returns them.
+   all have failed, and is *open* otherwise.
+3. All of it is said of the committed record; what the page itself runs is judged beside it.
 """
 
 from dataclasses import replace
 
 from companion.chapter_5.trials import TIMED
-from companion.page import judging, opening, report
-from companion.page.marks import leads
-from companion.page.report import CLAIMS_OF, LEGEND, PART_OF
+from companion.page import judging, opening, recorded, report
+from companion.page.report import CLAIMS_OF
 from companion.thesis import claims
 from companion.thesis.reading import NAMES, additions
 from companion.thesis.statements import AGENTS, APART, CLAIMS, DEMONSTRATIONS, STATEMENTS
-from companion.thesis.verdict import FAILED, RUNS_FOR_A_VERDICT
+from companion.thesis.verdict import FAILED
 
 SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "A9", "A11", "B1", "B2", "B3", "B4", "B6", "T6")
 SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
@@ -26,8 +24,6 @@ GROUPS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPAR
           "Counted apart": APART, "Beside the claims": DEMONSTRATIONS}
 OWN = CLAIMS_OF["chapter_5"]
 TURNED = ("revalued", "frozen", "wanting")  # agents whose desires change, or that had the later ones from the start
-WITHOUT_READING = [name for page in ("alternatives", "chapter_2", "chapter_3", "other_spaces")
-                   for name in CLAIMS_OF[page]]  # claims of pages that run no reading
 
 
 def judge(ran, reading, moved, costs):
@@ -48,32 +44,32 @@ def judge(ran, reading, moved, costs):
             *judging.judge(lambda: [claims.judge_more_maps(additions(ran))], ran, wanted)]
 
 
-def of_reading(record, reading, judged):
-    """A record of one reading, "calibrated" or "letter": what the other pages have found, and this one's claims."""
-    free = {name: each for name, each in record["claims"].items() if name in WITHOUT_READING}
-    others = {name: each for name, each in (free | record[PART_OF[reading]]).items() if name not in OWN}
-    return {"claims": others | report.kept(judged), "letter": {}, "shares": record["shares"]}
+def answer():
+    """Whether the conclusions stand, and the claims that carry them, as HTML: the recorded answer of the page."""
+    stand = []
+    for reading in report.PART_OF:
+        each = [f"{name.lower()} {standing(of_reading(reading), names)}" for name, names in CARRYING.items()]
+        stand.append(f"{NAMES[reading]}, {' and '.join(each)}")
+    rest = {"Judged on this page too": [name for name in OWN if name not in sum(CARRYING.values(), ())]}
+    sentences = "; ".join(stand), recorded.finding(report.record(), "T1")
+    return recorded.shown(" ".join(f"{words[0].upper()}{words[1:]}." for words in sentences), CARRYING | rest)
 
 
-def answer(record, reading):
-    """The box that says whether the conclusions are reproduced. record: of one reading, see `of_reading`."""
-    stand = [f"{name.lower()} {standing(record, names)}" for name, names in CARRYING.items()]
-    lines = [f"**{NAMES[reading].capitalize()}: {'; '.join(stand)}.**"]
-    for conclusion, names in CARRYING.items():
-        found = {name: record["claims"][name] for name in names if leads(report.verdict(record, name))}
-        words = opening.in_words({name: report.number(each) for name, each in found.items()})
-        verdicts = opening.by_verdict({name: each["verdict"] for name, each in found.items()})
-        lines += [f"*{conclusion}.* {words} {verdicts}."] if found else []
-    if len(lines) == 1 and record["claims"]:
-        lines = [f"**Quick look: no verdicts.** They need {RUNS_FOR_A_VERDICT} runs of full length."]
-    return opening.box("**Are the conclusions reproduced?**", *lines, remedy(record))
+def all_claims():
+    """All claims by the conclusion that rests on them, as HTML."""
+    return recorded.shown("", GROUPS)
 
 
-def standing(record, names):
-    """Whether what rests on some claims stands, see rule 2, in words."""
-    verdicts = [report.verdict(record, name) for name in names]
-    if not any(map(leads, verdicts)):
-        return "is not judged"
+def of_reading(reading):
+    """The recorded claims under a reading, "calibrated" or "letter", with those that have none: {name: …}."""
+    record = report.record()
+    free = {name: found for name, found in record["claims"].items() if name not in record["letter"]}
+    return free | record[report.PART_OF[reading]]
+
+
+def standing(found, names):
+    """Whether what rests on some claims stands, see rule 2, in words. found: {name: a recorded claim}."""
+    verdicts = [found[name]["verdict"] for name in names]
     if all(verdict == "reproduced" for verdict in verdicts):
         return "stands"
     if any(verdict in ("reproduced", "partly") for verdict in verdicts):
@@ -81,24 +77,9 @@ def standing(record, names):
     return "does not stand" if all(verdict in FAILED for verdict in verdicts) else "is open"
 
 
-def remedy(record):
-    """A sentence that says which claims no page has judged, and what to do; "" if there are none."""
-    missing = [name for name in STATEMENTS if name not in record["claims"]]
-    if not missing:
-        return ""
-    which = "No claim has" if not record["claims"] else f"{', '.join(missing)} have not"
-    return f"**{which} been judged yet: `make book` computes the pages that judge claims, and then this one.**"
-
-
-def tables(record):
-    """All claims that have been judged, a Markdown table for each of `GROUPS`, and one legend; "" if there are none."""
-    judged = {group: [name for name in names if name in record["claims"]] for group, names in GROUPS.items()}
-    parts = [f"**{group}**\n\n{report.rows(record, names)}" for group, names in judged.items() if names]
-    return "\n\n".join([*parts, LEGEND]) if parts else ""
-
-
-def failed(record):
-    """The claims that have failed, a list item each, in Markdown; "" if there are none."""
-    names = [name for name in CLAIMS if report.verdict(record, name) in FAILED]
+def failed(reading):
+    """The claims that have failed under a reading, a list item each, in Markdown; "" if there are none."""
+    found = of_reading(reading)
     return "\n".join(f"- {opening.link(name)}: {STATEMENTS[name].text}. Thesis: {STATEMENTS[name].thesis}; here: "
-                     f"{report.number(record['claims'][name])} ({report.verdict(record, name)})." for name in names)
+                     f"{report.number(found[name])} ({found[name]['verdict']})."
+                     for name in CLAIMS if name in found and found[name]["verdict"] in FAILED)

@@ -1,4 +1,4 @@
-"""The figures of chapter 5: the claims behind the conclusions, and trials that ask whether these stand."""
+"""The figures of chapter 5: trials that ask whether the conclusions of the thesis stand."""
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -6,35 +6,7 @@ from matplotlib import pyplot as plt
 from companion.chapter_5.trials import SECONDS_A_MOVE
 from companion.page.thesis_figures import draw_against_thesis, mark_levels
 from neorl.drawing.curves import draw_curves
-from neorl.drawing.style import AGENT, CURVES, INK, SMALL, axes_or_new, name_ends, width_of_figures
-
-ROW = 0.26  # inches, of a claim
-
-
-def draw_standing(record, names):
-    """The verdicts of claims, and the share of evenly drawn readings that agree at the papers' lengths, with counts.
-
-    Of the names, those of claims that have been judged.
-    """
-    names = [name for name in names if name in record["claims"]]
-    if not names:
-        axes = axes_or_new(None, figsize=(3, 0.4))
-        axes.axis("off")
-        return axes.text(0.5, 0.5, "no claims judged", ha="center", va="center")
-    axes = axes_or_new(None, figsize=(width_of_figures(), ROW * len(names) + 0.5))
-    for row, name in enumerate(names):
-        share = record["shares"].get(name, {})
-        if share.get("measured"):
-            axes.barh(row, share["agrees"] / share["measured"], 0.55, color=AGENT)
-            axes.annotate(f"{share['agrees']} of {share['measured']}", (1, row), xytext=(9, 0),
-                          textcoords="offset points", fontsize=SMALL, va="center")
-        else:
-            axes.text(0.01, row, "not varied over readings", fontsize=SMALL, va="center")
-    axes.set_yticks(range(len(names)), [f"{name}  {record['claims'][name]['verdict']}" for name in names], fontsize=10)
-    axes.set_xticks([0, 0.5, 1], ["none", "half", "all readings"])
-    axes.set(xlim=(0, 1), ylim=(len(names) - 0.4, -0.6))
-    axes.tick_params(axis="y", length=0)
-    axes.spines["left"].set_visible(False)
+from neorl.drawing.style import CURVES, INK, name_ends
 
 
 def draw_leads(sooner):

@@ -1,15 +1,17 @@
-"""The findings on the claims, as pages report them: tables in Markdown, and the record that a page saves.
+"""The findings on the claims, as pages report them: tables in Markdown, and what a page saves.
 
-A record is a JSON file for each page, in the folder ``claims`` of the cache. It has the claims that the page has judged
-under the reading that it ran, or the shares of readings within the text that agree with claims ("shares"). Together
-they have the claims under the book's reading ("claims"), those under the reading to the letter ("letter") and the
-shares. `book/writing/ledger.py` makes the page of all claims from the records.
+1. The *record* is committed, and what is said of the thesis comes from it: claims under the book's reading ("claims"),
+   under the reading to the letter ("letter"), and the shares of readings within the text that agree with claims
+   ("shares"). `book/computing/record.py` computes it.
+2. A page saves the claims that it has judged by its own runs in the folder ``claims`` of the cache, in the same form.
+   At 100 runs they are the record's, of claims that pages alone judge.
 """
 
 import json
 import re
 import tomllib
 from collections import Counter
+from functools import cache
 from importlib import resources
 
 import numpy as np
@@ -17,17 +19,14 @@ import numpy as np
 from companion import thesis
 from companion.page import wording
 from companion.page.marks import DECIDED, NOT_COMPUTED, leads, legend, symbol
-from companion.page.opening import link
-from companion.thesis.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
+from companion.page.opening import box, link
+from companion.thesis.statements import STATEMENTS
+from companion.thesis.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 from neorl.common.files import cache_folder, write_whole
 from neorl.experiments.condition import source_digest
 from neorl.statistics import Estimate
 
-COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
-LEGEND = (f"{legend()}; without a symbol, no verdict. Numbers: the quantities in italics, with 95\u00a0% intervals "
-          "over runs, or where a verdict rests on several, intervals that hold together with 95\u00a0%. A claim's name "
-          "leads to what its verdict rests on.")
-BESIDE = "Demonstrations of this book, not counted among the claims:"
+RECORD = resources.files(thesis) / "record.json"
 PART_OF = {"calibrated": "claims", "letter": "letter"}  # of readings
 PARTS = ("claims", "letter", "shares")  # of all records together
 CLAIMS_OF = {"alternatives": ("A10", "C5"), "chapter_2": ("H1",), "chapter_3": ("T3", "T4"), "chapter_4": ("T5", "T7"),
@@ -39,12 +38,23 @@ CLAIMS_OF = {"alternatives": ("A10", "C5"), "chapter_2": ("H1",), "chapter_3": (
 MISSING = None, "", "", ""  # a number under one reading that the other has not
 
 
-def verdicts(claims):
-    """Claims as a Markdown table, then demonstrations, and a legend; "" if there are none."""
-    record = {"claims": kept(claims), "letter": {}}
-    some, others = ([claim.name for claim in claims if claim.name in kind] for kind in (CLAIMS, DEMONSTRATIONS))
-    parts = ([rows(record, some)] if some else []) + ([BESIDE, rows(record, others)] if others else [])
-    return "\n\n".join([*parts, LEGEND]) if parts else ""
+def verdicts(claims, reading="calibrated"):
+    """Claims that a page has judged by its own runs, beside the record, as a small Markdown table; "" without claims.
+
+    reading: under which they are, a name in `READINGS`.
+    """
+    if not claims:
+        return ""
+    recorded = record()[PART_OF[reading]]
+    rows = [[f"{link(claim.name)} {STATEMENTS[claim.name].short}", _with_symbol(claim.verdict, str(claim.here)),
+             _of_record(recorded.get(claim.name))] for claim in claims]
+    runs = min(claim.runs for claim in claims)
+    more = " or more" * any(claim.runs > runs for claim in claims)
+    few = runs < RUNS_FOR_A_VERDICT or not all(claim.full_length for claim in claims)
+    wanted = f"; verdicts need {RUNS_FOR_A_VERDICT} of full length" * few
+    symbols = legend(verdict for verdict in VERDICTS[:-1] if verdict in {claim.verdict for claim in claims})
+    return box(f"This page has {runs} runs of each condition{more}{wanted}. {symbols}".rstrip(),
+               wording.table(["Claim", "This page", "Recorded"], rows))
 
 
 def comparison(judged):
@@ -78,12 +88,17 @@ def save(page, claims=(), shares=None, reading="calibrated"):
     write_whole(cache_folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())
 
 
-def load(paths=None):
-    """Load records, by default all that are saved, as one: {"claims": {name: …}, "letter": …, "shares": …}.
+@cache
+def record():
+    """The committed record: {"claims": {name: …}, "letter": …, "shares": …, …}, with claims as in `kept`."""
+    return json.loads(RECORD.read_text("utf-8"))
+
+
+def load(paths):
+    """Load what pages have saved as one: {"claims": {name: …}, "letter": …, "shares": …}.
 
     A claim that two pages have judged is that of more runs.
     """
-    paths = sorted((cache_folder() / "claims").glob("*.json")) if paths is None else paths
     records = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
     merged = {part: {} for part in PARTS}
     for part, known in merged.items():
@@ -101,13 +116,6 @@ def number(found):
 def verdict(record, name):
     """The verdict on a claim under the book's reading, or that it is not computed."""
     return record["claims"].get(name, {"verdict": NOT_COMPUTED})["verdict"]
-
-
-def rows(record, names):
-    """Some claims of a record, as `load` returns it, as a Markdown table without its empty columns."""
-    head, cells = wording.filled(COLUMNS, [_cells(record, name) for name in names])
-    head = head if "To the letter" in head else ["Here" if each == "Calibrated" else each for each in head]
-    return wording.table(head, cells)
 
 
 def numbers(record, name):
@@ -157,11 +165,8 @@ def _bounded(found):
     return [float(each) if np.isfinite(each) else None for each in found]
 
 
-def _cells(record, name):
-    statement = STATEMENTS[name]
-    return [f"**{link(name)}** {statement.text} <small>*{statement.statistic}*</small>", statement.thesis,
-            *(_with_symbol(found["verdict"], number(found)) if (found := record[part].get(name)) else ""
-              for part in ("letter", "claims")), verdict(record, name)]
+def _of_record(found):
+    return _with_symbol(found["verdict"], f"{number(found)}, {found['runs']} runs") if found else ""
 
 
 def _with_symbol(verdict, text):

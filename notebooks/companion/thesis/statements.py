@@ -61,6 +61,7 @@ class Statement:
 
     place: str
     quotation: str
+    short: str
     text: str
     statistic: str
     thesis: str
@@ -69,7 +70,8 @@ class Statement:
     bounds: Bounds
     also: Mapping[str, Bounds]
     kind: str = "agents"  # one of KINDS
-    finding: str = ""
+    finding: str | Mapping[str, str] = ""
+    why: str = ""
 
 
 def _bounds(given):

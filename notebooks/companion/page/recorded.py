@@ -1,0 +1,202 @@
+"""The recorded answer, which opens a page and the page of all claims: what was found in words, and a figure of numbers.
+
+1. All of it is from the committed record, so that it is the same on every page, in every build and in JupyterLab.
+2. In the figure each claim is a line with a scale of its own, on which the band, the numbers that agree with the
+   thesis, lies where it does in all other lines. An interval is inside the band, across its edge, or outside.
+3. Figures are HTML tables with SVG in their cells, so that their words wrap on a narrow page.
+"""
+
+from html import escape
+from importlib import resources
+
+import numpy as np
+from IPython.display import HTML
+
+from companion.page import marks, report
+from companion.page.opening import CLAIMS_PAGE, link
+from companion.study.calibration_targets import CLAIMS as FITTED
+from companion.thesis.reading import NAMES
+from companion.thesis.statements import STATEMENTS
+from companion.thesis.verdict import belongs
+from neorl.statistics import Estimate
+
+STYLE = resources.files(__package__) / "recorded.css"
+COLUMNS = "letter", "calibrated"  # readings
+SHOWN = report.CLAIMS_OF | {  # of pages that judge none
+    "beyond_agents": ("C5",), "calibration": FITTED, "chapter_1": ("T1",), "performance": ("T2", "T5")}
+MOST_IN_WORDS = 12  # claims
+EDGES = 100 / 3, 200 / 3  # of the band, in percent of a line
+FARTHEST = 28.0, 60.0  # percent between the only edge of a band and the farthest number, outside and inside
+PLACES = {True: "inside", None: "across the edge", False: "outside"}
+OPEN = "undecided", "not testable"
+
+
+def answer(page):
+    """What the record says of a page's claims, as HTML: a sentence and a figure. page: name of a notebook."""
+    return shown(sentence(report.record(), SHOWN[page]), {"": SHOWN[page]})
+
+
+def shown(sentence, groups):
+    """A sentence and the figure of some claims below it, as HTML for a notebook. groups: see `figure`."""
+    return HTML(f'<div class="recorded"><style>{STYLE.read_text("utf-8")}</style><p class="sentence">{sentence}</p>'
+                f"{figure(report.record(), groups, CLAIMS_PAGE)}</div>")
+
+
+def sentence(record, names):
+    """What was found on some claims in words, as far as they have some and are few, and how many are reproduced."""
+    found = [finding(record, name) for name in names] if len(names) <= MOST_IN_WORDS else []
+    words = "; ".join(filter(None, found)).replace("; and ", ", and ")
+    if words and any(name in record["letter"] for name in names):
+        words = f"calibrated, {words}"
+    return " ".join(filter(None, [words and f"{words[0].upper()}{words[1:]}.", counted(record, names)]))
+
+
+def finding(record, name):
+    """What was found on a claim, in words with its numbers; "" if it has none."""
+    claim, words = record["claims"].get(name), STATEMENTS[name].finding
+    if not claim:
+        return ""
+    return said(claim, words if isinstance(words, str) else words.get(claim["verdict"], ""))
+
+
+def said(claim, words):
+    """Words with the numbers of a recorded claim, see `statements.toml`."""
+    numbers = {what: number for what, (number, *_) in claim["numbers"].items()}
+    where = next((what.split(", ")[1] for what, number in reversed(numbers.items())
+                  if number == claim["here"] and ", " in what), "")
+    here = _value(claim["here"]).removesuffix(".00")
+    return words.format(here=here, size=here.lstrip("−"), where=where,
+                        of={what: _value(number) for what, number in numbers.items()})
+
+
+def counted(record, names):
+    """How many of some claims are reproduced under the readings that judge them, in a sentence."""
+    parts = []
+    for reading, part in report.PART_OF.items():
+        verdicts = [record[part][name]["verdict"] for name in names if name in record[part]]
+        of_reading = f" {NAMES[reading]}" if any(name in record["letter"] for name in names) else ""
+        parts += [f"{verdicts.count('reproduced')} of {len(verdicts)}{of_reading}"] if verdicts else []
+    return f"Reproduced: {', '.join(parts)}." if len(names) > 1 else ""
+
+
+def figure(record, groups, claims_page=""):
+    """Claims, a line each: the thesis's number, and ours under both readings, within or beyond what agrees.
+
+    groups: {title or "": names of claims}. claims_page: the address of the page of claims, "" on this page.
+    """
+    heads = "".join(f'<th scope="col">{head}</th>' for head in (
+        "Claim", LEGEND, "Thesis", *(f"{MARKERS[each]} {NAMES[each].capitalize()}" for each in COLUMNS)))
+    bodies = "".join(
+        f"<tbody>{_title(title)}{''.join(_line(record, name, claims_page) for name in names)}</tbody>"
+        for title, names in groups.items() if names)
+    return f'<table class="numbers"><thead><tr>{heads}</tr></thead>{bodies}</table>'
+
+
+def decisive(name, found):
+    """The first number that decides a recorded verdict, other than the claim's own: (what, number, bounds), or None.
+
+    None also if the claim's own number is among those that decide.
+    """
+    own = STATEMENTS[name].statistic
+    wanted = "?" if found["verdict"] in OPEN else "✓" if found["verdict"] == "reproduced" else "✗"
+    deciding = [(what, number, bounds) for what, (number, bounds, mark, _) in found["numbers"].items()
+                if mark == wanted and not bounds.startswith("partly")]
+    if not deciding or any(what == own or number == found["here"] for what, number, _ in deciding):
+        return None
+    return deciding[0]
+
+
+def bounds_of(name, what):
+    """The `Bounds` of a number that the rule of a claim compares, by its name."""
+    statement = STATEMENTS[name]
+    return next((each for part, each in statement.also.items() if belongs(what, part)), statement.bounds)
+
+
+def _value(number):
+    """A number as a record has it, without its interval, as text."""
+    return str(Estimate(number[0], np.nan, np.nan))
+
+
+def _title(title):
+    return f'<tr><th colspan="5" scope="rowgroup">{escape(title)}</th></tr>' if title else ""
+
+
+def _line(record, name, claims_page):
+    statement = STATEMENTS[name]
+    found = {reading: record[part][name] for reading, part in report.PART_OF.items() if name in record[part]}
+    compared = next((what for each in found.values() for what, (number, bounds, *_) in each["numbers"].items()
+                     if bounds and number == each["here"]), statement.statistic)
+    bounds, other = bounds_of(name, compared), found and decisive(name, found.get("calibrated") or found["letter"])
+    rests = (f"<small>decided by another number, {escape(other[0])}: {report.number({'here': other[1]})}, which must "
+             f"be {escape(other[2].partition(' (')[0])}</small>" if other else "")
+    cells = "".join(f"<td>{_ours(found.get(reading))}</td>" for reading in COLUMNS)
+    thesis = statement.thesis if bounds.number is None else f"{bounds.number:g}"
+    return (f'<tr><th scope="row" title="{escape(statement.text)}">{escape(statement.short)} '
+            f"({link(name, claims_page)}){rests}</th><td>{_scale(bounds, found)}</td><td>{escape(thesis)}</td>"
+            f"{cells}</tr>")
+
+
+def _ours(found):
+    if not found:
+        return ""
+    return (f'<span title="{report.number(found)}, {found["runs"]} runs or more">{_value(found["here"])}</span>'
+            f'<small class="{marks.MARKS[found["verdict"]].css}">{found["verdict"]}</small>')
+
+
+def _scale(bounds, found):
+    """A line of the figure, as SVG. found: {reading: a recorded claim}."""
+    numbers = {reading: [end for end in each["here"] if end is not None] for reading, each in found.items()}
+    place = _places(bounds, [end for each in numbers.values() for end in each])
+    left, right = (0 if np.isinf(bounds.low) else EDGES[0]), (100 if np.isinf(bounds.high) else EDGES[1])
+    parts = [f'<rect class="band" x="{left:.1f}%" width="{right - left:.1f}%" height="100%"/>']
+    if bounds.number is not None:
+        at = place(bounds.number)
+        parts.append(f'<line class="thesis" x1="{at:.1f}%" x2="{at:.1f}%" y2="100%"/>')
+    for reading, (value, *interval) in numbers.items():
+        parts.append(_point(reading, place(value), *map(place, interval or (value, value))))
+    words = "; ".join(f"{NAMES[reading]}: {report.number(each)}, {PLACES[bounds.decide(_estimate(each['here']))]}"
+                      for reading, each in found.items())
+    return (f'<svg role="img" aria-label="{words}; agrees: {bounds}"><title>Agrees: {bounds}. {words}</title>'
+            f'{"".join(parts)}</svg>')
+
+
+def _places(bounds, numbers):
+    """The function from numbers to percent of a line, in which the band of the bounds has its place."""
+    if np.isfinite([bounds.low, bounds.high]).all():
+        return lambda number: EDGES[0] + (EDGES[1] - EDGES[0]) * (number - bounds.low) / (bounds.high - bounds.low)
+    edge, at, inwards = (bounds.low, EDGES[0], 1) if np.isfinite(bounds.low) else (bounds.high, EDGES[1], -1)
+    known = [*numbers, *([] if bounds.number is None else [bounds.number])]
+    outside, inside = FARTHEST
+    unit = max([1e-9, *(inwards * (number - edge) / inside for number in known),
+                *(inwards * (edge - number) / outside for number in known)])
+    return lambda number: at + (number - edge) / unit
+
+
+def _point(reading, at, low, high):
+    """Our number and its interval; beyond the line, an arrow at its end."""
+    y = {"calibrated": 6, "letter": 16}[reading]
+    if not 1 <= at <= 99:
+        end, tip = (100, 92) if at > 99 else (0, 8)
+        return f'<g class="{reading}">{_arrow(end, tip, y)}</g>'
+    low, high = np.clip([low, high], 0, 100)
+    return (f'<g class="{reading}"><line x1="{low:.1f}%" x2="{high:.1f}%" y1="{y}" y2="{y}"/>'
+            f"{_marker(reading, f'{at:.1f}%', y)}</g>")
+
+
+def _arrow(end, tip, y):
+    return f'<text x="{end}%" y="{y + 4}" text-anchor="{"end" if end else "start"}">{"→" if end else "←"}</text>'
+
+
+def _marker(reading, x, y):
+    if reading == "calibrated":
+        return f'<circle cx="{x}" cy="{y}" r="4"/>'
+    return f'<svg x="{x}" y="{y}" overflow="visible"><rect x="-3.5" y="-3.5" width="7" height="7"/></svg>'
+
+
+def _estimate(here):
+    return Estimate(*(np.nan if end is None else end for end in here))
+
+
+MARKERS = {reading: f'<svg class="key" role="presentation"><g class="{reading}">{_marker(reading, "50%", 6)}</g></svg>'
+           for reading in COLUMNS}
+LEGEND = ('<span class="key band"></span> agrees with the thesis, <span class="key thesis"></span> its number')

@@ -1,0 +1,82 @@
+"""The recorded answer: its sentence, and numbers against numbers within and beyond what agrees."""
+
+import re
+
+import pytest
+
+from companion.page import recorded, report
+from companion.thesis.statements import STATEMENTS, Bounds
+from companion.thesis.verdict import VERDICTS
+
+RECORD = report.record()
+
+
+@pytest.fixture
+def line():
+    """`line(bounds, **numbers)`: the SVG of a line with numbers (value, low, high) under readings."""
+    return lambda bounds, **numbers: recorded._scale(bounds, {name: {"here": here} for name, here in numbers.items()})
+
+
+def places(svg, kind):
+    return [float(at) for at in re.findall(rf'{kind}="([\d.-]+)%"', svg)]
+
+
+def test_a_band_lies_in_the_middle_and_numbers_on_the_line_s_own_scale(line):
+    svg = line(Bounds(2.0, 4.0, number=3.0), calibrated=(3.5, 3.0, 4.5), letter=(1.0, 0.5, 1.5))
+    assert places(svg, "width") == [33.3] and places(svg, "cx") == [58.3] and 'class="thesis" x1="50.0%"' in svg
+    assert '<line x1="50.0%" x2="75.0%"' in svg and '<line x1="8.3%" x2="25.0%"' in svg
+    assert "calibrated: 3.50 [3.00, 4.50], across the edge" in svg
+    assert "to the letter: 1.00 [0.50, 1.50], outside" in svg
+
+
+def test_a_number_far_beyond_a_band_is_an_arrow_at_the_end_of_its_line(line):
+    svg = line(Bounds(2.0, 4.0), calibrated=(100.0, 90.0, 110.0), letter=(-50.0, -60.0, -40.0))
+    assert "→" in svg and "←" in svg and "<circle" not in svg
+
+
+@pytest.mark.parametrize("bounds, numbers, band, at", [
+    (Bounds(low=0.0), (5.0, 4.0, 6.0), [66.7], 33.3 + 50), (Bounds(high=1.0), (-2.0, -3.0, -1.0), [66.7], 66.7 - 45),
+    (Bounds(low=0.0), (-5.0, -6.0, -4.0), [66.7], 33.3 - 28 * 5 / 6)])
+def test_a_band_with_one_edge_leaves_room_for_the_farthest_number(line, bounds, numbers, band, at):
+    svg = line(bounds, calibrated=numbers)
+    assert places(svg, "width") == band and places(svg, "cx") == [pytest.approx(at, abs=0.1)]
+
+
+def test_a_claim_decided_by_another_number_says_so():
+    shown = recorded.figure(RECORD, {"": ["B3", "A7"]})
+    (other,) = re.findall(r"<small>decided by another number, (.*?)</small>", shown)
+    assert other.startswith("place cells: ") and "0.23 to 0.36" in other
+
+
+def test_every_line_has_the_thesis_s_number_and_ours_with_verdicts_under_both_readings():
+    shown = recorded.figure(RECORD, {"": STATEMENTS})
+    lines = re.findall(r'<tr><th scope="row".*?</tr>', shown)
+    assert len(lines) == len(STATEMENTS) and "nan" not in shown and "inf" not in shown
+    for name, text in zip(STATEMENTS, lines):
+        verdicts = re.findall(r'<small class="verdict-\w+">([^<]+)</small>', text)
+        assert verdicts == [RECORD[part][name]["verdict"] for part in ("letter", "claims") if name in RECORD[part]]
+
+
+@pytest.mark.parametrize("page", recorded.SHOWN)
+def test_every_page_has_an_answer_in_words_and_numbers(page):
+    words = re.search(r'<p class="sentence">(.*?)</p>', recorded.answer(page).data)[1]
+    assert re.search(r"\d", words) and words[0].isupper() and words.endswith(".") and "{" not in words
+
+
+@pytest.mark.parametrize("name", [name for name, each in STATEMENTS.items() if each.finding])
+def test_words_for_a_claim_hold_whatever_its_verdict_is(name):
+    found = RECORD["claims"][name]
+    assert recorded.finding(RECORD, name)
+    for verdict in VERDICTS:
+        said = recorded.finding({"claims": {name: found | {"verdict": verdict}}, "letter": {}}, name)
+        assert "{" not in said and not said.endswith(".")
+
+
+def test_words_name_what_a_number_is_of():
+    claim = {"here": [4.0, 3.5, 4.5], "numbers": {"a ratio, of all": [[4.0, 3.5, 4.5]], "over it, DQN, which sees": [[
+        4.0, 3.5, 4.5]], "over it, PPO": [[1.5, 1.0, 2.0]]}}
+    assert recorded.said(claim, "{where} {here}, PPO {of[over it, PPO]}") == "DQN 4, PPO 1.50"
+
+
+def test_claims_in_few_words_are_few():
+    assert all(len(each.short.split()) <= 8 for each in STATEMENTS.values())
