@@ -36,6 +36,12 @@ def headline(record):
             f"{runs(record)} runs.")
 
 
+def turned(record):
+    """What agents do when red is wanted all at once, in a sentence; "" without it."""
+    found = recorded.finding(record, "T1")
+    return f"{found[0].upper()}{found[1:]}." if found else ""
+
+
 def runs(record):
     """The number of runs behind claims about agents that are run, "10" or "100 to 1,000", "0" if none was judged."""
     numbers = {record["claims"][name]["runs"] for name in AGENTS if name in record["claims"] and name != "A10"} or {0}

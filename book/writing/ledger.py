@@ -15,7 +15,7 @@ from companion.study import sensitivity
 from companion.thesis.statements import AGENTS, DEMONSTRATIONS, STATEMENTS
 
 from writing import curves, levels
-from writing.answer import APART, BLOCKS, dependence, headline, sections, summary
+from writing.answer import APART, BLOCKS, dependence, headline, sections, summary, turned
 
 CAPTION = ("Each claim has a scale of its own, so that all bands lie below each other. Points are our numbers, with "
            "95\u00a0% intervals; one beyond its line is an arrow. A claim leads to its line below.")
@@ -31,8 +31,9 @@ def page(record):
     style = f'<style>{recorded.STYLE.read_text("utf-8")}</style>'
     parts = [headline(record), style + recorded.figure(record, BLOCKS),
              f"{CAPTION} Recorded on {record['date']} with commit {record['commit']}.", turned(record),
+             "[Chapter 5](chapters/chapter_5.ipynb) has the figure of this turn, and a switch.",
              dependence(record, found), *sections(record, found),
-             levels.section(record), "## Claim by claim"]
+             levels.section(record, found), "## Claim by claim"]
     groups = {title: [name for name in AGENTS if name[0] == letter] for letter, title in CHAPTERS.items()}
     groups |= {title: [name for name in APART if STATEMENTS[name].kind == kind] for kind, title in KINDS.items()}
     for title, names in (groups | {"Beside the claims: demonstrations": DEMONSTRATIONS}).items():
@@ -49,12 +50,6 @@ def front(record):
         f'<p class="result">{headline(record)}</p>', summary(record),
         f"<p>Above is one run. {STATEMENTS['T1'].text}: as {link} this is {marks.html(verdict)}\u00a0"
         f"{marks.explained(verdict)} in the calibrated reading{runs}.</p>"]) + "\n"
-
-
-def turned(record):
-    """What agents do when red is wanted all at once, in a sentence with a link; "" without it."""
-    found = recorded.finding(record, "T1")
-    return f"{found[0].upper()}{found[1:]} ([chapter 5](chapters/chapter_5.ipynb))." if found else ""
 
 
 def _claim(record, name, of_table):

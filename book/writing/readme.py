@@ -5,7 +5,7 @@ import re
 from companion.page import report, wording
 from computing.compute import ROOT
 
-from writing.answer import REPRODUCED, headline, reproduced
+from writing.answer import REPRODUCED, headline, reproduced, turned
 
 BETWEEN = re.compile(r"(?<=<!-- claims: make readme -->\n).*(?=<!-- end of claims -->)", re.S)
 
@@ -17,7 +17,8 @@ def main():
 
 def found(record):
     """The headline of the first page, and how many claims are reproduced under both readings, in Markdown."""
-    return f"{headline(record)}\n\n{wording.table(REPRODUCED, reproduced(record))}\n"
+    parts = headline(record), wording.table(REPRODUCED, reproduced(record)), turned(record)
+    return "\n\n".join(filter(None, parts)) + "\n"
 
 
 if __name__ == "__main__":

@@ -14,7 +14,6 @@ from IPython.display import HTML
 
 from companion.page import marks, report
 from companion.page.opening import CLAIMS_PAGE, link
-from companion.study.calibration_targets import CLAIMS as FITTED
 from companion.thesis.reading import NAMES
 from companion.thesis.statements import STATEMENTS
 from companion.thesis.verdict import belongs
@@ -23,7 +22,8 @@ from neorl.statistics import Estimate
 STYLE = resources.files(__package__) / "recorded.css"
 COLUMNS = "letter", "calibrated"  # readings
 SHOWN = report.CLAIMS_OF | {  # of pages that judge none
-    "beyond_agents": ("C5",), "calibration": FITTED, "chapter_1": ("T1",), "performance": ("T2", "T5")}
+    "beyond_agents": ("C5",), "calibration": (*report.record()["shares"],), "chapter_1": ("T1",),
+    "performance": ("T2", "T5")}
 MOST_IN_WORDS = 12  # claims
 EDGES = 100 / 3, 200 / 3  # of the band, in percent of a line
 FARTHEST = 28.0, 60.0  # percent between the only edge of a band and the farthest number, outside and inside
@@ -39,7 +39,7 @@ def answer(page):
 def shown(sentence, groups):
     """A sentence and the figure of some claims below it, as HTML for a notebook. groups: see `figure`."""
     return HTML(f'<div class="recorded"><style>{STYLE.read_text("utf-8")}</style><p class="sentence">{sentence}</p>'
-                f"{figure(report.record(), groups, CLAIMS_PAGE)}</div>")
+                f"{figure(report.record(), groups, CLAIMS_PAGE)}<p class=\"note\">{NOTE}</p></div>")
 
 
 def sentence(record, names):
@@ -199,4 +199,6 @@ def _estimate(here):
 
 MARKERS = {reading: f'<svg class="key" role="presentation"><g class="{reading}">{_marker(reading, "50%", 6)}</g></svg>'
            for reading in COLUMNS}
+NOTE = ("From the committed record. To the letter: all gaps in the thesis’s text filled by the plainest choices; "
+        "calibrated: by those that fit its numbers best. Lines are 95\u00a0% intervals, arrows point beyond a line’s end.")
 LEGEND = ('<span class="key band"></span> agrees with the thesis, <span class="key thesis"></span> its number')
