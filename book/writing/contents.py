@@ -1,11 +1,13 @@
-"""The table of contents in pictures: the title of each computed page, its first figure and the figure's question.
+"""The table of contents in pictures: the title of each computed page, its first figure, a question and its answer.
 
-The question is the first sentence of the caption, and says what the eye can find in the picture.
+The question is the first sentence of the figure's caption, and says what the eye can find in the picture. The answer is
+the recorded one, on pages that have claims.
 """
 
 import re
 
 import nbformat
+from companion.page import recorded, report
 
 MOST_BYTES = 40_000  # of a picture
 
@@ -31,8 +33,13 @@ def card(name, page, chapters):
             picture = [f":img-top: chapters/{figure.name}", f":img-alt: {shown['image']['alt']}"]
             return "\n".join([":::{grid-item-card}", f":link: chapters/{name}", ":link-type: doc",
                               *(picture if figure.stat().st_size <= MOST_BYTES else []), "", f"**{title}**", "",
-                              question(shown["figure"]["caption"]), ":::"])
+                              question(shown["figure"]["caption"]), "", answer(name), ":::"])
     return ""
+
+
+def answer(page):
+    """The recorded answer of a page, "" if it has no claims."""
+    return recorded.sentence(report.record(), recorded.SHOWN.get(page, ()))
 
 
 def question(caption):

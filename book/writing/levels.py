@@ -51,10 +51,11 @@ def why_places_earn_more(found):
     drawn = [row for row in found.table if row.wave == 0 and PLACES in row.statistics]
     rank = scipy.stats.spearmanr([row.reading.choices["discount"] for row in drawn],
                                  [row.statistics[PLACES].value for row in drawn]).statistic
-    return ("Why do places alone earn so much more to the letter? That reading has no memory of cells left earlier, and a "
-            f"shorter horizon. Calibrated but without memory, they earn {number(without.statistics[PLACES].value)} in "
-            f"place of {number(found.calibrated.statistics[PLACES].value)}; and of readings drawn evenly within the text, "
-            f"those with a longer horizon let them earn less (rank correlation {number(rank)}).")
+    earned, calibrated = (number(row.statistics[PLACES].value) for row in (without, found.calibrated))
+    return ("Why do places alone earn so much more to the letter? That reading has no memory of cells left earlier, "
+            f"and a shorter horizon. Calibrated but without memory, they earn {earned} in place of {calibrated}; and of "
+            "readings drawn evenly within the text, those with a longer horizon let them earn less (rank correlation "
+            f"{number(rank)}).")
 
 
 def _level(claims, name, number):

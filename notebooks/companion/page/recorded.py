@@ -200,5 +200,6 @@ def _estimate(here):
 MARKERS = {reading: f'<svg class="key" role="presentation"><g class="{reading}">{_marker(reading, "50%", 6)}</g></svg>'
            for reading in COLUMNS}
 NOTE = ("From the committed record. To the letter: all gaps in the thesis’s text filled by the plainest choices; "
-        "calibrated: by those that fit its numbers best. Lines are 95\u00a0% intervals, arrows point beyond a line’s end.")
+        "calibrated: by those that fit its numbers best. Lines are 95\u00a0% intervals; arrows point beyond a line’s "
+        "end.")
 LEGEND = ('<span class="key band"></span> agrees with the thesis, <span class="key thesis"></span> its number')
