@@ -53,9 +53,9 @@ def why_places_earn_more(found):
                                  [row.statistics[PLACES].value for row in drawn]).statistic
     earned, calibrated = (number(row.statistics[PLACES].value) for row in (without, found.calibrated))
     return ("Why do places alone earn so much more to the letter? That reading has no memory of cells left earlier, "
-            f"and a shorter horizon. Calibrated but without memory, they earn {earned} in place of {calibrated}; and of "
-            "readings drawn evenly within the text, those with a longer horizon let them earn less (rank correlation "
-            f"{number(rank)}).")
+            f"and a shorter horizon. Calibrated but without memory, they earn {earned} in place of {calibrated}; and "
+            "of readings drawn evenly within the text, those with a longer horizon let them earn less (rank "
+            f"correlation {number(rank)}).")
 
 
 def _level(claims, name, number):
