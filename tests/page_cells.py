@@ -54,7 +54,7 @@ def executed(page, changes=(), until=None, **parameters):
     for text, other in changes:
         assert any(text in cell for cell in cells.values()), text
         cells = {name: cell.replace(text, other) for name, cell in cells.items()}
-    first = next(iter(cells))
+    first = next(name for name in cells if name != "answer")  # of the parameters
     named = set(re.findall(r"^(\w+): ", cells[first], re.MULTILINE))
     small = {name: value for name, value in (SMALL | ALSO_SMALL.get(page, {})).items() if name in named}
     cells[first] = with_values(cells[first], small | parameters)
