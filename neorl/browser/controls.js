@@ -23,6 +23,9 @@ class Controls {
 
   /** Put one control beside the tank, with a sentence on it, and fold the others. */
   putFirst(name) {
+    this.only = name;
+    this.write({ speed: this.pace = 0 });
+    this.offerOfPage();
     const { parentElement: label } = this.control(name);
     const help = Object.assign(document.createElement("p"), { className: "help", textContent: HELP[name] });
     const first = Object.assign(document.createElement("div"), { className: "only" });
@@ -31,6 +34,33 @@ class Controls {
     this.part(".more").prepend(...[".bar", ".settings", ".starters", ".tools"].map((each) => this.part(each)));
     this.part(".columns").prepend(first);
     this.part("summary").textContent = "All controls";
+  }
+
+  /** Offer the agents of the page before all others, and as resolutions those of their maps. */
+  offerOfPage() {
+    const { presets } = this;
+    const menu = this.control("preset");
+    menu.prepend(...menu.querySelectorAll(`[label="${OF_PAGE}"]`));
+    const own = orderedKeys(presets).filter((key) => presets[key].is_condition);
+    const numbers = inOrder(own.flatMap((key) => presets[key].resolutions)).filter((n) => n > 1);
+    if (numbers.length) this.part(".chips").innerHTML = numbers.map(chip).join("");
+  }
+
+  /** What a run is called whose only control stands beside the tank: by its setting. */
+  settingText() {
+    const { model, presets, only } = this;
+    const value = model.get(only);
+    const texts = { resolutions: () => inOrder(value).map((n) => `N${n}`).join(", "), modality: () => value,
+      object_state: () => STATES[value], preset: () => presets[value].label };
+    return only && (texts[only]?.() ?? `${NAMES[only]} ${shown(value)}`);
+  }
+
+  /** Keep the reward of a run that is over, to be drawn beside the next one, which has another setting. */
+  keepCurve() {
+    const { frame, name, length, world: { fps } } = this.life;
+    if (!this.only || !frame?.ended || name === this.settingText()) return;
+    const span = { seconds: length.steps / fps, binSeconds: length.bin / fps, lived: frame.step / fps };
+    this.before = { name, span, totals: frame.rewards, colour: "place", isPale: true };
   }
 
   turned({ type, target }) {
@@ -193,9 +223,12 @@ class Controls {
   }
 
   showLegend() {
+    const { before, life: { name, changed } } = this;
     const { label, runs, band } = this.presets[this.condition] ?? {};
     const swatch = (kind) => Object.assign(document.createElement("span"), { className: `swatch ${kind}` });
-    this.part(".legend").replaceChildren(swatch("own"), this.life.changed ? "this run, changed on the way" : "this run",
+    const own = `${name ? `${name}: ` : ""}this run${changed ? ", changed on the way" : ""}`;
+    this.part(".legend").replaceChildren(swatch("own"), own,
+      ...(before ? [swatch("before"), `${before.name}: the one before`] : []),
       ...(this.beside ? [swatch("beside"), this.names()[1]] : []),
       ...(band ? [swatch("band"), `where most of ${runs} runs of ${label} lie`] : []));
   }
@@ -283,7 +316,8 @@ class Controls {
     const [frames, fps] = [[frame, second?.frame].filter(Boolean), world.fps];
     const span = { seconds: length.steps / fps, binSeconds: length.bin / fps, lived: (frame?.step ?? 0) / fps };
     const earned = frames.map(({ rewards }, tank) => ({ totals: rewards, colour: ["agent", "place"][tank] }));
-    drawCurves(this.curve, colours, span, earned.reverse(), this.presets[condition]?.band);
+    const all = [this.before, ...earned.reverse()].filter(Boolean);
+    drawCurves(this.curve, colours, span, all, this.presets[condition]?.band);
     drawCurves(this.catches, colours, span, frames.flatMap(({ hits }, tank) => hits.map(({ kind, counts }) =>
       ({ totals: counts, per: 60, colour: COLOUR_OF[kind] ?? "place", isDashed: tank > 0 }))));
     const inWords = ({ hits }) => hits.map(({ kind, counts }) =>

@@ -2,13 +2,14 @@
 
 const COLOUR_OF = { green: "green", target: "green", red: "red", obstacle: "red", vessel: "red" }; // of what is met
 
-/** Draw rates over the run. span: {seconds, binSeconds, lived (seconds)}; lines: {colour, totals (of bins), per (so many
- * seconds, by default 1), isDashed}; band: of the reward of other runs, or none. */
+/** Draw rates over the run. span: {seconds, binSeconds, lived (seconds), mark ({second, text}, a line, or none)}; lines:
+ * {colour, totals (of bins), per (so many seconds, by default 1), span (of its own), isDashed, isPale}; band: of the
+ * reward of other runs, or none. */
 function drawCurves(canvas, colours, span, lines, band = null) {
   const board = { context: fittedContext(canvas), colours };
   const [left, top, right, bottom] = [34, 8, canvas.clientWidth - 8, canvas.clientHeight - 20];
   const { seconds } = span;
-  const curves = lines.map(({ totals, per = 1, ...line }) => ({ ...line, ...ratesOf(totals, span, per) }));
+  const curves = lines.map(({ totals, per = 1, ...line }) => ({ ...line, ...ratesOf(totals, line.span ?? span, per) }));
   const values = [0, 0.5, ...curves.flatMap(({ rates }) => rates), ...(band ? [...band.low, ...band.high] : [])];
   const [least, most] = [Math.min(...values), Math.max(...values)];
   const [step, minutes] = [roundStep((most - least) / 3), roundStep(seconds / 240)];
@@ -24,6 +25,11 @@ function drawCurves(canvas, colours, span, lines, band = null) {
     const isLast = at + minutes > seconds / 60;
     label(`${Number(at.toFixed(3))}${isLast ? " min" : ""}`, xOf(60 * at), bottom + 13, isLast ? "right" : "center");
   }
+  if (span.mark) {
+    const x = xOf(span.mark.second);
+    stroke(board, colours.ink, 1, 0.7, (path) => addLine(path, [[x, top], [x, bottom]]));
+    label(span.mark.text, x - 6, top + 4, "right");
+  }
   const pointsOf = (borders, heights) => Array.from(heights, (rate, bin) =>
     [xOf((borders[bin] + borders[bin + 1]) / 2), yOf(rate)]);
   if (band) {
@@ -31,11 +37,11 @@ function drawCurves(canvas, colours, span, lines, band = null) {
     fillPath(board, colours.ink, 0.2, (path) => addLine(path, outline));
     stroke(board, colours.ink, 1, 0.8, (path) => addLine(path, pointsOf(band.edges, band.middle)));
   }
-  for (const { colour, edges, rates, isDashed } of curves) {
+  for (const { colour, edges, rates, isDashed, isPale } of curves) {
     const points = pointsOf(edges, rates);
     if (points.length) points.unshift([left, points[0][1]]); // from the first second
     board.context.setLineDash(isDashed ? [4, 3] : []);
-    stroke(board, colours[colour], 1.8, 1, (path) => addLine(path, points));
+    stroke(board, colours[colour], 1.8, isPale ? 0.7 : 1, (path) => addLine(path, points));
   }
   board.context.setLineDash([]);
 }

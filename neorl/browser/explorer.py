@@ -74,7 +74,7 @@ AVOIDED = ("red", "obstacle", "vessel")  # the kinds whose valence has a control
 CURVE_BINS = 50
 SCRIPTS = ("settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js", "controls.js",
            "hands.js", "starters.js", "beside.js", "tour.js", "address.js", "saving.js", "widget.js", "shared.js")
-CONTROLS = ("resolutions", "modality", "object_state", "recursion", "valence_red")
+CONTROLS = ("preset", "resolutions", "modality", "object_state", "recursion", "valence_red")
 
 
 def text_of(*names):
@@ -101,7 +101,8 @@ class Explorer(AnyWidget):
     gains (one per node), exploration, learning_rate and discount (0 … 1), memory (≥ 0, in cells; 0 if it learns at
     every step), n_creeps (1 … 20; None outside WaterWorld), seed (below 2³²), run, speed (times real time, 0 for as
     fast as possible), playing; and, from the beginning only, control: one of `neorl.browser.explorer.CONTROLS`, which
-    then stands beside the tank by itself, with the others folded, or by default "".
+    then stands beside the tank by itself, with the others folded, or by default "". A run of each setting of it is
+    drawn at full speed, beside the last run of another setting.
     Choosing a preset sets the traits that it determines. An agent that is not a condition is in the tank of the first
     condition in WaterWorld, or else in one with 3 creeps; an agent to the letter has the letter's steps per second and
     contacts; agents in the arena are in `neorl.Arena()`, and agents of other spaces in their own worlds.

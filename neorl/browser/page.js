@@ -1,7 +1,8 @@
 /* The Explorer's markup and constants, and small helpers of its parts. */
 
 const SPEEDS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 0]; // times real time; 0: as fast as possible
-const [TIMED_BUDGET, FREE_BUDGET, STEPS_WITHOUT_END] = [12, 32, 1e9]; // milliseconds, milliseconds, steps
+const [TIMED_BUDGET, FREE_BUDGET, WHOLE_BUDGET] = [12, 32, 100]; // milliseconds
+const STEPS_WITHOUT_END = 1e9;
 const [MOST_ELEMENTS, MOST_SEED, NO_ACTION] = [5, 2 ** 32 - 1, 4];
 const [DOUBLE_TAP, NEARBY] = [350, 0.06]; // milliseconds and board widths between the two taps
 const NO_MEMORY = -1; // its position on the slider, which has logarithms to base ten
@@ -24,8 +25,11 @@ const HELP = { // for a control that stands beside the tank by itself
   resolutions: "Cells along each side of a map. An agent has one map per number; other numbers begin a new run.",
   modality: "What the cells are tuned to. Another modality begins a new run.",
   object_state: "What an object-vector map learns. Another state begins a new run.",
-  recursion: "The weight with which a desire is passed back to its own node. It changes at once, without relearning.",
-  valence_red: "What the agent wants. It changes at once, without relearning." };
+  recursion: "The weight with which a desire is passed back to its own node. Another weight begins a new run.",
+  valence_red: "What the agent wants. Another valence begins a new run.",
+  preset: "Another agent begins a new run, with nothing learned." };
+const NAMES = { recursion: "r =", valence_red: "red" }; // of settings that are numbers
+const OF_PAGE = "On this page"; // the group of a page's own agents
 
 const slide = (name, label, least, most, step) => `<label class="slide"><span>${label}</span><input type="range"
   name="${name}" min="${least}" max="${most}" step="${step}"><output></output></label>`;

@@ -33,6 +33,7 @@ class Starters extends Hands {
 
   /** What is due at the beginning of a run of an agent to which little happens at first, or null. */
   beginningOf(preset) {
+    if (this.only) return null; // all of the run is at full speed
     const { begins, world: { fps } } = this.presets[preset] ?? { world: {} };
     const minutes = Math.round(begins / fps / 60);
     const [before, after] = ["begin at full speed, since networks learn slowly", "were at full speed"].map((each) =>

@@ -3,6 +3,7 @@
 - The traits are the source of truth: a control writes its trait, and the page reacts to the trait, whether the change
   comes from a control, from Python or from a linked widget. Simultaneous changes are handled together.
 - A new body, map or tank starts a new run; a new desire or way of learning continues with what was learned.
+- A control that stands by itself draws whole runs, at full speed, and the last one with another setting beside it.
 - The simulation runs in a worker, which answers every request once and in order. It advances only on request, with one
   such request at a time: a widget that is out of view makes none.
 - The page holds a run in one object, `life`, which the next run replaces as a whole. A frame contains everything that
@@ -16,7 +17,7 @@ class Explorer extends Saving {
     super();
     Object.assign(this, { model, places, presets: model.get("_presets"), modalities: model.get("_modalities"),
       first: model.get("preset"), pace: Math.max(0, model.get("speed")), life: newLife(), elements: [], beside: null, selected: null,
-      noted: new Set(), undo: [], drawn: 0, told: 0, failed: false });
+      only: "", before: null, noted: new Set(), undo: [], drawn: 0, told: 0, failed: false });
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     const id = `neorl-tank-${Math.random().toString(36).slice(2)}`; // each widget of a page has a module of its own
     this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer", innerHTML: pageOf(id) });
@@ -114,11 +115,13 @@ class Explorer extends Saving {
       const names = [...noted];
       noted.clear();
       if (names.some((name) => name !== "near")) this.forgive();
+      if (names.includes(this.only) && this.touched) this.write({ playing: true, speed: 0 });
       const before = this.condition;
       this.condition = conditionOf(model.get("_layout").plane, presets, modalities, this.settings());
       if (this.condition !== before || !before) this.offerRuns();
       this.showControls();
-      if (!this.engine || names.some((name) => NEW_RUN.includes(name))) await this.begin();
+      const begins = (name) => NEW_RUN.includes(name) || name === this.only;
+      if (!this.engine || names.some(begins)) await this.begin();
       else if (names.some((name) => name === "elements" || GOES_ON.includes(name))) await this.change();
       this.refresh();
     }
@@ -139,9 +142,11 @@ class Explorer extends Saving {
     const [{ steps, band }, seed, run] = [presets[model.get("preset")], model.get("seed"), model.get("run")];
     const [world, bin] = [worldOf(presets, this.settings()), band?.steps_per_bin ?? Math.ceil(steps / 50)];
     const changes = this.condition === model.get("preset") ? presets[this.condition].changes : [];
+    this.keepCurve();
     const times = 2 ** Math.max(0, Math.ceil(Math.log2((this.due?.step ?? 0) / steps))); // as if it had gone on
     const length = { steps: times * steps, bin: times * bin };
-    this.life = newLife({ world, length, changes, changed: this.elements.length > 0, due: this.due });
+    this.life = newLife({ world, length, changes, changed: this.elements.length > 0, due: this.due,
+      name: this.settingText() });
     this.due = null;
     this.refresh();
     this.engine ??= startEngine(model, (message) => this.fail(message));
@@ -199,13 +204,18 @@ class Explorer extends Saving {
     this.take(frame);
     this.count(frame.steps);
     await this.meet();
-    if (this.running() && this.speed() === 0) this.safely(() => this.advance(STEPS_WITHOUT_END, FREE_BUDGET))();
+    if (this.running() && this.speed() === 0) this.safely(() => this.advance(STEPS_WITHOUT_END, this.budget()))();
   }
 
   speed() {
     const { game, due, frame } = this.life;
     if (due?.hurries) return 0;
     return game ? 1 : frame && this.isReaching() ? SLOW : this.model.get("speed");
+  }
+
+  /** The milliseconds of a request at full speed: a frame, with its field of arrows, takes as long as many steps. */
+  budget() {
+    return this.only ? WHOLE_BUDGET : FREE_BUDGET;
   }
 
   take(frame) {
@@ -270,7 +280,7 @@ class Explorer extends Saving {
       if (!life.advancing && steps > 0) {
         if (life.game) this.steer(now);
         life.owed -= free ? 0 : steps;
-        this.safely(() => this.advance(steps, free ? FREE_BUDGET : TIMED_BUDGET))();
+        this.safely(() => this.advance(steps, free ? this.budget() : TIMED_BUDGET))();
       }
       this.schedule();
     }

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from explorer_page import COLOURS, drop_by_keyboard, explorer_of, picture, press, wait, write_page
+from explorer_page import COLOURS, coloured, drop_by_keyboard, explorer_of, picture, press, wait, write_page
 from matplotlib import pyplot as plt
 from playwright.sync_api import expect
 from traitlets import TraitError
@@ -226,7 +226,7 @@ def test_no_way_leads_out_of_the_chosen_cell(visit):
     assert arrows[2] == 0 and sum(arrows) > 50
 
 
-@pytest.mark.parametrize("control, preset", [("resolutions", "places"), ("modality", "places"),
+@pytest.mark.parametrize("control, preset", [("resolutions", "places"), ("preset", "places"),
                                              ("recursion", "Network D")])
 def test_one_control_stands_beside_the_tank_and_the_others_are_folded(visit, control, preset):
     page = visit(preset=preset, control=control)
@@ -255,5 +255,29 @@ def test_a_page_about_the_explorer_has_all_controls_and_its_first_agent(visit, t
 
 
 def test_python_refuses_another_control():
-    with pytest.raises(TraitError, match="control must be '', 'resolutions', 'modality', "):
+    with pytest.raises(TraitError, match="control must be '', 'preset', 'resolutions', "):
         Explorer(control="speed")
+
+
+def test_a_control_by_itself_draws_a_whole_run_for_each_setting_and_keeps_the_last_curve(visit, conditions):
+    page = visit(control="resolutions", playing=True, speed=5.0)
+    wait_for_score(page, SIZE["steps"], conditions["places"].totals[0])
+    legend = page.locator(".legend")
+    expect(legend).to_contain_text("N3, N5: this run")
+    assert coloured(page.locator("canvas.curve"))["agent"] > 50
+    assert page.locator(".only .chips button").all_inner_texts() == ["3", "5"]
+    page.locator(".only .chips button").first.click()
+    wait_for_score(page, SIZE["steps"], run_of(place_cells([5])).advance(SIZE["steps"]))
+    expect(legend).to_have_text("N5: this runN3, N5: the one before")
+    press(page, "new-run")
+    page.wait_for_function(f"{DATA}.state === 'running'")
+    expect(legend).to_have_text("N5: this runN3, N5: the one before")
+
+
+def test_with_recursion_as_its_control_a_weight_begins_a_whole_run_also_with_less_motion(visit):
+    page = visit("", {"reduced_motion": "reduce"}, preset="Network D", control="recursion", playing=True)
+    wait(page, "paused")
+    page.locator('[name="recursion"]').fill("0.5")
+    page.wait_for_function(f"{DATA}.state === 'running'")
+    expect(page.locator(".legend")).to_contain_text("r = 0.5: this run")
+    expect(page.locator(".said")).not_to_contain_text("full speed")

@@ -1,0 +1,119 @@
+/* The Turn in the page: an agent that avoids red creeps comes to want them, with learning on or off from there.
+
+A whole run is drawn as fast as the page computes it, beside the last one with the other setting; then the agent goes
+on in the tank, at `PACE` times real time. Out of view, or paused, nothing is asked of the worker. */
+
+const [PACE, BUDGET, MOST_SECONDS, DAY] = [4, 60, 0.1, 86_400]; // times real time, milliseconds, seconds, seconds
+const MARKUP = `<p role="alert" hidden></p><div class="columns"><div class="board"><p class="lived"></p>
+  <canvas role="img" aria-label="The tank with the agent"></canvas><div class="buttons"><button type="button"
+  data-action="play"></button><label class="tick"><input type="checkbox" checked>Learning goes on after the
+  turn</label></div></div><div class="side"><p class="title">Red creeps caught a minute</p><canvas role="img"
+  aria-label="Red creeps that the agent catches a minute, over the run"></canvas><p class="legend"></p>
+  <p class="said" role="status"></p></div></div>`;
+const COLOURS = { on: "agent", off: "red" }; // of the curves, by whether learning goes on
+
+class Turn {
+  constructor(model, place) {
+    Object.assign(this, { model, runs: model.get("_runs"), setting: "on", life: null, before: null, inSight: false,
+      isPlaying: !matchMedia("(prefers-reduced-motion: reduce)").matches });
+    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer neorl-turn",
+      innerHTML: MARKUP });
+    [this.tank, this.reds] = this.root.querySelectorAll("canvas");
+    place.append(this.root);
+    [this.play, this.learns] = this.root.querySelectorAll("button, input");
+    this.play.addEventListener("click", () => {
+      this.isPlaying = !this.isPlaying;
+      this.wake();
+    });
+    this.learns.addEventListener("change", () => this.turned());
+    const sight = new IntersectionObserver((entries) => {
+      this.inSight = entries.at(-1).isIntersecting;
+      this.wake();
+    });
+    sight.observe(this.root);
+    const unwatch = watchLook([this.tank, this.reds], () => this.wake());
+    this.stop = () => {
+      for (const end of [() => sight.disconnect(), unwatch, () => this.engine?.stop()]) end();
+      this.root.remove();
+    };
+  }
+
+  turned() {
+    const { life, learns } = this;
+    if (life?.isWhole) this.before = { ...this.lineOf(life), isPale: true };
+    Object.assign(this, { setting: learns.checked ? "on" : "off", life: null, isPlaying: true });
+    this.wake();
+  }
+
+  /** Begin a run, whose agent changes at the turn, or advance it. */
+  async ask(request) {
+    this.engine ??= startEngine(this.model, (message) => this.fail(message));
+    const { life, runs, setting } = this;
+    const given = request.type === "begin" ? runs[setting] : {};
+    life.isBusy = true;
+    const frame = await this.engine.ask({ ...given, ...request });
+    if (life !== this.life) return;
+    Object.assign(life, { frame, isBusy: false, isWhole: frame.step >= life.steps });
+    this.wake();
+  }
+
+  wake() {
+    this.asked ??= requestAnimationFrame(guarded((now) => this.tick(now), (message) => this.fail(message)));
+  }
+
+  async tick(now) {
+    this.asked = null;
+    const isRunning = this.isPlaying && this.inSight && this.root.isConnected;
+    const elapsed = Math.min((now - (this.last ?? now)) / 1000, MOST_SECONDS);
+    this.last = isRunning ? now : null;
+    this.draw();
+    if (!isRunning || this.life?.isBusy) return;
+    const { steps, world: { fps } } = this.runs[this.setting];
+    const { frame, isWhole } = this.life ??= { steps, fps, frame: null, isWhole: false };
+    const begin = { type: "begin", run: 0, steps: steps + DAY * fps, bin_steps: 60 * fps, map: "", field: 0, heat: 0 };
+    if (!frame) await this.ask(begin);
+    else if (!isWhole) await this.ask({ type: "advance", steps: steps - frame.step, budget: BUDGET });
+    else await this.ask({ type: "advance", steps: Math.round(PACE * elapsed * fps), budget: Infinity });
+  }
+
+  /** The red creeps that a run has caught, minute by minute, and how much of it there is to draw. */
+  lineOf({ frame, steps, fps }) {
+    const { counts } = frame.hits.find(({ kind }) => kind === "red");
+    const span = { seconds: steps / fps, binSeconds: 60, lived: Math.min(frame.step, steps) / fps };
+    return { totals: counts, colour: COLOURS[this.setting], per: 60, span, setting: this.setting };
+  }
+
+  draw() {
+    const { root, life, before, isPlaying } = this;
+    const part = (name) => root.querySelector(name);
+    this.play.textContent = isPlaying ? "Pause" : "Play";
+    root.dataset.state = life?.isWhole ? "whole" : life?.frame ? "running" : "waiting";
+    if (!life?.frame) return;
+    const [colours, line, { frame, fps, steps, isWhole }] = [readColours(root), this.lineOf(life), life];
+    const [turn, end] = [this.runs[this.setting].changes[0].step, steps].map((step) => step / fps);
+    drawArena(this.tank, colours, { ...frame, seen: null, nodes: [], landings: [] }, { trail: true });
+    drawCurves(this.reds, colours, { ...line.span, mark: { second: turn, text: "red becomes good" } }, [before, line].filter(Boolean));
+    part(".legend").innerHTML = [line, before].filter(Boolean).map(({ colour, setting: learning, isPale }) =>
+      `<span class="swatch" style="border-top: 2px solid var(--${colour})"></span>learning ${learning}`
+      + (isPale ? ", the run before" : " after the turn")).join(" · ");
+    const wanted = frame.wants.some(({ kind, valence }) => kind === "red" && valence > 0) ? "wanted" : "avoided";
+    part(".lived").textContent = `${Math.floor(frame.step / fps / 60)} minutes · red is ${wanted}`;
+    const mean = (from, to) => (line.totals.slice(from, to).reduce((sum, each) => sum + each, 0) / (to - from)).toFixed(1);
+    const [half, late] = [turn, (turn + end) / 2].map((second) => Math.floor(second / 60));
+    part(".said").textContent = isWhole ? `Red creeps a minute: ${mean(Math.floor(half / 2), half)} before the turn, `
+      + `${mean(half, half + 1)} in the first minute after it, ${mean(late, Math.floor(end / 60))} in the last ${Math.floor(end / 60) - late} minutes.` : "";
+    if (isWhole) root.dataset.caught = line.totals.join(" ");
+  }
+
+  fail(message = "The agent has stopped. Reload the page to begin again.") {
+    this.engine?.stop();
+    Object.assign(this, { engine: null, life: null, isPlaying: false });
+    Object.assign(this.root.querySelector("[role=alert]"), { hidden: false, textContent: message });
+  }
+}
+
+function render({ model, el }) {
+  return new Turn(model, el).stop;
+}
+
+export default { render };
