@@ -23,6 +23,7 @@ ALSO_SMALL = {"alternatives": {"steps": 3_000}, "calibration": {"sample": 1, "st
 WORDS = {"dashed": r"[Dd]ashed", "thesis": r"the (thesis|paper)('s number| reports)"}  # what speaks of a part
 LAST = {"calibrated": None, "letter": "judging"}  # of the cells of a page under its readings, one of which is run whole
 HIDDEN = {"remove-input", "hide-input", "hide-cell"}
+PART = "part-of-experiment"  # the tag of folded cells below the experiment that run more
 
 
 def code(page):
@@ -96,7 +97,7 @@ def computed_below(cells, experiment, parameters):
     """The cells below the experiment that open ones compute with parameters, and those that show what these have."""
     changing, found = set(), set()
     for place, cell in enumerate(cells):
-        writes = figure_of(cell) or tags(cell) & HIDDEN or "Markdown(" in cell.source
+        writes = PART not in tags(cell) and (figure_of(cell) or tags(cell) & HIDDEN or "Markdown(" in cell.source)
         for node, text in statements(cell.source):
             table = symtable(text, cell.id, "exec")
             bound = {each.get_name() for each in table.get_symbols() if each.is_assigned()} | changed_names(node)
