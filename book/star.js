@@ -3,10 +3,13 @@
 - The rules are those of star.py. Each agent has a worker of its own, which advances only on request. The lesson, and
   every request, is short, so that the page stays responsive; out of view, or paused, none is made.
 - `life` holds all that the page knows of the two runs, and is replaced as a whole; answers to requests of an earlier
-  one are dropped. What is shown is measured in the frames of the two runs, weighted by time. */
+  one are dropped. What is shown is measured in the frames of the two runs, weighted by time.
+- While red is good there is no star, which would keep the agent from red discs. */
 
-const SPEED = 2; // times real time
+const SPEED = 2; // times real time, as the caption of the table says
 const [LESSON_BUDGET, MOST_SECONDS] = [24, 0.1]; // milliseconds of each request; simulated seconds behind real time
+const [LESSON_BINS, ENOUGH] = [10, 10]; // in which the lesson counts discs; seconds after which a rate is shown
+const [GREEN, RED, MOST_REDS] = [0, 1, 100]; // the kinds of discs; the height of the curve
 const [PERIOD, CALM, NUMBERS] = [60, 500, 250]; // seconds measured; milliseconds between drawings, and between numbers
 const [STEP, EDGE] = [0.04, 0.03]; // of the arrow keys, and the star's distance to the walls, in board widths
 const DAY = 86_400; // seconds, after which a run begins again
@@ -18,7 +21,7 @@ class Star {
     Object.assign(this, { root, data, star: data.star, forgetful: false, redIsGood: false, life: null, engines: [],
       isPlaying: !matchMedia("(prefers-reduced-motion: reduce)").matches, inSight: false, drawn: 0, numbered: 0 });
     this.calm = !this.isPlaying;
-    [this.tank, this.other, this.distance] = root.querySelectorAll("canvas");
+    [this.tank, this.other, this.curve] = root.querySelectorAll("canvas");
     this.handle = root.querySelector(".star");
     this.listen();
   }
@@ -29,14 +32,14 @@ class Star {
     on(root.querySelector(".buttons"), "click", ({ target }) => this.press(target.dataset.action));
     on(handle, "pointerdown", ({ pointerId }) => handle.setPointerCapture(pointerId));
     on(handle, "pointermove", (event) => handle.hasPointerCapture(event.pointerId) && this.move(this.placeOf(event)));
-    on(tank, "click", (event) => this.life?.frames && this.move(this.placeOf(event)));
+    on(tank, "click", (event) => !this.handle.hidden && this.move(this.placeOf(event)));
     on(handle, "keydown", (event) => {
       const [x, y] = ARROWS[event.key] ?? [];
       if (x === undefined) return;
       event.preventDefault();
       this.move({ x: this.star.x + STEP * x, y: this.star.y + STEP * y });
     });
-    watchLook([tank, this.other, this.distance], () => this.wake());
+    watchLook([tank, this.other, this.curve], () => this.wake());
     new IntersectionObserver(this.safely((entries) => {
       this.inSight = entries.at(-1).isIntersecting;
       if (this.inSight && !this.life) return this.live();
@@ -51,25 +54,31 @@ class Star {
 
   press(action) {
     if (action === "play") this.isPlaying = !this.isPlaying;
-    if (action === "red") this.redIsGood = !this.redIsGood, this.life.isChanged = true;
     if (action === "forget") this.forgetful = !this.forgetful, this.live();
+    if (action === "red") this.redIsGood = !this.redIsGood, this.life.curves = [], this.change();
     this.wake();
+  }
+
+  /** Let both agents want something else, and measure anew. */
+  change() {
+    Object.assign(this.life, { isChanged: true, past: [] });
+    this.root.dataset.seconds = 0;
   }
 
   move(place) {
     const [x, y] = [place.x, place.y].map((side) => Math.min(1 - EDGE, Math.max(EDGE, side)));
     Object.assign(this, { star: { x, y } });
-    Object.assign(this.life, { isChanged: true, past: [] });
-    this.root.dataset.seconds = 0;
+    this.change();
     this.wake();
   }
 
-  /** The agent's parameters, with the star and the valence of red. */
-  parameters({ withStar = true } = {}) {
+  /** The parameters of an agent that learns no more, and wants the star, or red discs. */
+  parameters() {
     const { data: { valence, red }, star, redIsGood } = this;
     const parameters = structuredClone(this.data.parameters);
-    if (!withStar) return parameters;
+    parameters.learning.learning_rate = 0;
     for (const e of red) parameters.desires[e].valence = redIsGood ? 1 : -1;
+    if (redIsGood) return parameters;
     const source = this.data._layout.plane.enumerations.Source.place;
     parameters.names.forEach((_, n) => addElement(parameters, n, source, { ...star, valence }));
     return parameters;
@@ -79,8 +88,8 @@ class Star {
 
   /** Begin both runs, after the first agent's lesson unless it is to know nothing. */
   async live() {
-    const { data: { world, seed, lesson }, forgetful } = this;
-    const life = this.life = { frames: null, past: [], curves: [], owed: 0, isChanged: false, isBusy: false };
+    const { data: { world, seed, lesson, parameters: learning }, forgetful } = this;
+    const life = this.life = newLife();
     if (!this.engines.length) {
       const model = { get: (name) => this.data[name] };
       this.engines = [0, 1].map(() => startEngine(model, (message) => this.fail(message)));
@@ -88,23 +97,25 @@ class Star {
     const steps = DAY * world.fps;
     const begin = { type: "begin", world, seed, run: 0, steps, bin_steps: steps, map: "", heat: 0, field: 0 };
     this.show("learning", 0);
-    if (!forgetful) {
-      const alone = this.parameters({ withStar: false });
-      await this.ask({ ...begin, parameters: alone, seed: seed + 1, steps: lesson, bin_steps: lesson });
-      for (let frame = {}; !frame.ended;) {
-        frame = await this.ask({ type: "advance", steps: lesson, budget: LESSON_BUDGET });
-        if (life !== this.life) return;
-        this.show("learning", frame.step / world.fps / 60);
-        if (!this.calm) drawArena(this.tank, readColours(this.root), bare(frame));
-      }
-    }
-    const parameters = this.parameters(); // the star may have been moved in the meantime
-    const frames = await Promise.all([
-      // An agent that forgets has another run, or the two would be the same to the last bit.
-      this.ask({ ...begin, parameters, run: Number(forgetful), keeps: !forgetful, field: FIELD_TILES }),
-      this.ask({ ...begin, parameters }, 1)]);
+    const parameters = this.parameters(); // the star may be moved in the meantime, which is a change
+    life.frames[1] = await this.ask({ ...begin, parameters }, 1);
     if (life !== this.life) return;
-    Object.assign(life, { frames, isChanged: true });
+    if (!forgetful) {
+      const bin = lesson / LESSON_BINS;
+      await this.ask({ ...begin, parameters: learning, seed: seed + 1, steps: lesson, bin_steps: bin });
+      for (let frame = {}; !frame.ended;) {
+        frame = life.frames[0] = await this.ask({ type: "advance", steps: lesson, budget: LESSON_BUDGET });
+        if (life !== this.life) return;
+        this.show("learning", minutesOf(frame.step, world));
+        if (!this.calm) this.draw();
+      }
+      life.reds = life.frames[0].hits[RED].counts.at(-1) / minutesOf(bin, world);
+    }
+    // An agent that forgets has another run, or the two would be the same to the last bit.
+    const own = { run: Number(forgetful), keeps: !forgetful, field: FIELD_TILES };
+    const frame = await this.ask({ ...begin, ...own, parameters });
+    if (life !== this.life) return;
+    Object.assign(life, { frames: [frame, life.frames[1]], lives: true });
     this.show("paused");
     this.wake();
   }
@@ -114,7 +125,7 @@ class Star {
   }
 
   isRunning() {
-    return this.isPlaying && this.inSight && Boolean(this.life?.frames);
+    return this.isPlaying && this.inSight && Boolean(this.life?.lives);
   }
 
   async advance(steps) {
@@ -164,7 +175,7 @@ class Star {
     this.asked = null;
     const elapsed = Math.min((now - (this.before ?? now)) / 1000, MOST_SECONDS);
     this.before = this.isRunning() ? now : null;
-    if (life?.frames) {
+    if (life?.lives) {
       if (this.isRunning()) {
         this.show("running");
         life.owed = Math.min(life.owed + SPEED * elapsed * fps, SPEED * MOST_SECONDS * fps);
@@ -177,37 +188,43 @@ class Star {
   }
 
   show(state, minutes = 0) {
-    const { root, forgetful, isPlaying, redIsGood, data: { lesson, world: { fps } } } = this;
-    const whole = lesson / fps / 60;
-    const lived = { learning: `It learns for ${whole} minutes: ${Math.floor(minutes)} …`,
-      failed: "" }[state] ?? (forgetful ? "It has forgotten everything." :
-      `It has learned for ${whole} minutes, without a star.`);
+    const { root, forgetful, isPlaying, redIsGood, data: { lesson, world } } = this;
+    const whole = minutesOf(lesson, world);
+    const lived = { learning: `It learns for ${whole} minutes, without a star: ${Math.floor(minutes)} …`,
+      failed: "" }[state] ?? [forgetful ? "It has forgotten everything" : `It learned for ${whole} minutes`,
+      redIsGood ? "The star is gone." : "It learns no more."].join(". ");
     root.querySelector(".lived").textContent = lived;
     if (root.dataset.state !== state) {
       root.dataset.state = state;
       root.querySelector("[role=status]").textContent = state === "learning" ? "" : lived;
     }
-    this.handle.hidden = !["running", "paused"].includes(state);
+    this.handle.hidden = redIsGood || !["learning", "running", "paused"].includes(state);
+    this.placeStar();
     root.querySelector("[data-action=play]").textContent = isPlaying ? "Pause" : "Play";
     for (const [action, pressed] of [["forget", forgetful], ["red", redIsGood]]) {
       root.querySelector(`[data-action=${action}]`).ariaPressed = pressed;
     }
   }
 
-  draw(now) {
-    const { root, tank, other, handle, star, life } = this;
-    this.drawn = now;
-    if (!life?.frames) return;
-    const colours = readColours(root);
-    const [mine, theirs] = life.frames.map(bare);
-    drawArena(tank, colours, mine, { trail: true });
-    drawArena(other, { ...colours, agent: colours.place }, theirs, { trail: true });
-    this.drawStar(other, colours);
+  placeStar() {
+    const { handle, star } = this;
     handle.style.left = `${100 * shareOf(star.x)}%`;
     handle.style.top = `${100 * shareOf(star.y)}%`;
     const [across, down] = [star.x, star.y].map((side) => Math.round(100 * side));
     handle.ariaLabel = `The star, ${across} % from the left and ${down} % from the top: drag it, or use the arrow keys.`;
-    if (now - this.numbered >= NUMBERS || !this.isRunning()) this.showNumbers(colours, now);
+  }
+
+  draw(now = performance.now()) {
+    const { root, tank, other, life } = this;
+    this.drawn = now;
+    if (!life) return;
+    const colours = readColours(root);
+    const [mine, theirs] = life.frames;
+    if (mine) drawArena(tank, colours, bare(mine), { trail: life.lives });
+    if (theirs) drawArena(other, { ...colours, agent: colours.place }, bare(theirs), { trail: life.lives });
+    if (theirs && !this.redIsGood) this.drawStar(other, colours);
+    this.placeStar();
+    if (life.lives && (now - this.numbered >= NUMBERS || !this.isRunning())) this.showNumbers(colours, now);
   }
 
   drawStar(canvas, colours) {
@@ -216,22 +233,30 @@ class Star {
       colours.goal, colours.paper);
   }
 
-  /** Write the numbers of the last minute, or of the time since the star was moved, and draw the distances. */
+  /** Write the numbers of the last minute, or of the time since the last change, and draw the curves. */
   showNumbers(colours, now) {
-    const { root, distance, life: { past, curves, frames } } = this;
+    const { root, curve, redIsGood, life: { past, curves, frames, reds } } = this;
     this.numbered = now;
     const [first, last] = past.length ? [past[0], past.at(-1)] : [this.sample(frames), this.sample(frames)];
     const seconds = last.at - first.at;
-    root.querySelector(".period").textContent = `The last ${Math.round(seconds)} s`;
+    root.querySelector(".period").textContent = `The last ${Math.round(seconds)} simulated seconds, at twice the pace`;
+    root.querySelectorAll("[data-measures]").forEach((title) => {
+      title.hidden = title.dataset.measures !== (redIsGood ? "red" : "distance");
+    });
     root.querySelectorAll("tbody tr").forEach(({ cells }, which) => {
       const sum = past.slice(1).reduce((total, { at, distances }, before) =>
         total + (at - past[before].at) * distances[which], 0);
-      const caught = [0, 1].map((kind) => last.hits[which][kind] - first.hits[which][kind]);
-      [(sum / seconds).toFixed(2), ...caught].forEach((number, column) => {
-        cells[column + 1].textContent = seconds ? number : "–";
+      const near = seconds ? (sum / seconds).toFixed(2) : "–";
+      const before = which === 0 && reds !== null ? Math.round(reds) : "–";
+      const caught = [GREEN, RED].map((kind) => seconds < ENOUGH ? "–"
+        : Math.round(60 / seconds * (last.hits[which][kind] - first.hits[which][kind])));
+      [redIsGood ? before : near, ...caught].forEach((number, column) => {
+        cells[column + 1].textContent = number;
       });
     });
-    drawDistances(distance, colours, curves);
+    const sinceFirst = ({ hits }, which) => (hits[which][RED] - curves[0].hits[which][RED]) / MOST_REDS;
+    drawShares(curve, colours, curves, redIsGood ? sinceFirst : ({ distances }, which) => distances[which],
+      redIsGood ? MOST_REDS : 1);
     Object.assign(root.dataset, { step: frames[0].step, seconds: Math.round(seconds),
       at: [frames[0].agent.x, frames[0].agent.y].join(" ") });
   }
@@ -244,31 +269,37 @@ class Star {
 
   fail(message = STOPPED) {
     for (const engine of this.engines) engine.stop();
-    Object.assign(this, { engines: [], life: { frames: null } });
+    Object.assign(this, { engines: [], life: newLife() });
     this.show("failed");
     Object.assign(this.root.querySelector("[role=alert]"), { hidden: false, textContent: message });
   }
 }
 
+/** reds: that the agent caught in a minute at the end of its lesson. */
+const newLife = () => ({ frames: [], lives: false, reds: null, past: [], curves: [], owed: 0, isChanged: true,
+  isBusy: false });
+
 /** A frame without maps and desires. */
 const bare = (frame) => ({ ...frame, seen: null, nodes: [], landings: [] });
 
-/** Draw the distances of both agents to the star over the last minute, in board widths. */
-function drawDistances(canvas, colours, curves) {
+const minutesOf = (steps, { fps }) => steps / fps / 60;
+
+/** Draw, for both agents, shares of `most` over the last minute. */
+function drawShares(canvas, colours, samples, shareIn, most) {
   const board = { context: fittedContext(canvas), colours };
   const [left, top, right, bottom] = [30, 8, canvas.clientWidth - 4, canvas.clientHeight - 18];
-  const end = Math.max(PERIOD, curves.at(-1)?.at ?? 0);
+  const end = Math.max(PERIOD, samples.at(-1)?.at ?? 0);
   const xOf = (at) => right - (right - left) * (end - at) / PERIOD;
-  const yOf = (distance) => bottom - (bottom - top) * Math.min(1, distance);
+  const yOf = (share) => bottom - (bottom - top) * Math.min(1, share);
   for (const tick of [0, 0.5, 1]) {
     stroke(board, colours.ink, 0.8, tick ? 0.15 : 0.7, (path) => addLine(path, [[left, yOf(tick)], [right, yOf(tick)]]));
-    write(board, String(tick), left - 6, yOf(tick), "11px", colours.ink, null, "right");
+    write(board, String(tick * most), left - 6, yOf(tick), "11px", colours.ink, null, "right");
   }
   write(board, "−60 s", left, bottom + 11, "11px", colours.ink, null, "left");
   write(board, "now", right, bottom + 11, "11px", colours.ink, null, "right");
   [colours.agent, colours.place].forEach((colour, which) => {
-    stroke(board, colour, 1.8, 1, (path) => addLine(path, curves.map(({ at, distances }) =>
-      [xOf(at), yOf(distances[which])])));
+    stroke(board, colour, 1.8, 1, (path) => addLine(path, samples.map((sample) =>
+      [xOf(sample.at), yOf(shareIn(sample, which))])));
   });
 }
 

@@ -1,7 +1,8 @@
 """The star: an agent with experience, and a place that it comes to want, for the front page and the README.
 
 1. Two agents run in tanks that begin alike: one has learned for `LESSON` in a run of another seed, and the other has
-   learned nothing. From then on both act, and learn, for as long.
+   learned nothing. From then on both act and learn no more, so that what they do is what the lesson is worth: one that
+   learned on would come to find the star, too.
 2. Both want the star, an element of interest at a place, besides the green creeps. No reward is ever paid for it.
 3. The page (`star.js`) runs them in the reader's browser; `experienced` and `with_star` are the same runs in Python.
 """
@@ -17,7 +18,7 @@ import neorl
 from neorl.browser.explorer import text_of
 
 AGENT, TANK = neorl.multimodal(), neorl.WaterWorld()
-SEED = 2  # the distances of both agents to the star, on the page and in the picture, are near the medians of 24 seeds
+SEED = 19  # the distances of both agents to the star, on the page and in the picture, are near the medians of 24 seeds
 LESSON = 100 * 60 * TANK.fps  # steps
 VALENCE = 2.0  # of the star; green creeps have 1, red ones −1
 START = (0.8, 0.2)  # of the star
@@ -27,10 +28,10 @@ TITLE = "A tank with an agent, and green and red discs; the path of the agent en
 
 
 def with_star(agent, place):
-    """An agent that also wants to be at a place, in board widths from the upper left corner, with all its nodes."""
+    """An agent that learns no more, and also wants to be at a place, in board widths from the upper left corner."""
     star = neorl.Place(*place)
     wants = [neorl.Desire(star, node.name, VALENCE) for node in agent.nodes]
-    return replace(agent, desires=(*agent.desires, *wants))
+    return replace(agent, desires=(*agent.desires, *wants), learning=replace(agent.learning, learning_rate=0.0))
 
 
 def experienced(place=START, lesson=LESSON):
