@@ -85,8 +85,8 @@ def test_a_conclusion_stands_as_far_as_the_claims_that_carry_it(verdicts, standi
 
 def test_the_answer_has_the_claims_of_both_conclusions_under_both_readings():
     answer = conclusions.answer().data
-    stands = conclusions.standing(conclusions.of_reading("letter"), conclusions.CARRYING["Superposition"])
-    assert f"to the letter, superposition {stands}" in answer
+    stands = conclusions.standing(conclusions.of_reading("calibrated"), conclusions.CARRYING["Superposition"])
+    assert f"Superposition {stands} " in answer
     assert re.findall(r"#claim-\w+\" [^>]*>(\w+)</a>", answer) == [
         *conclusions.CARRYING["Superposition"], *conclusions.CARRYING["Learning apart from behaviour"], "T2", "T6"]
 

@@ -12,7 +12,7 @@ from companion.chapter_5.trials import TIMED
 from companion.page import judging, opening, recorded, report
 from companion.page.report import CLAIMS_OF
 from companion.thesis import claims
-from companion.thesis.reading import NAMES, additions
+from companion.thesis.reading import additions
 from companion.thesis.statements import AGENTS, APART, CLAIMS, DEMONSTRATIONS, STATEMENTS
 from companion.thesis.verdict import FAILED
 
@@ -47,9 +47,10 @@ def judge(ran, reading, moved, costs):
 def answer():
     """Whether the conclusions stand, and the claims that carry them, as HTML: the recorded answer of the page."""
     stand = []
-    for reading in report.PART_OF:
-        each = [f"{name.lower()} {standing(of_reading(reading), names)}" for name, names in CARRYING.items()]
-        stand.append(f"{NAMES[reading]}, {' and '.join(each)}")
+    for name, names in CARRYING.items():
+        calibrated, letter = (standing(of_reading(reading), names) for reading in report.PART_OF)
+        stand.append(f"{name.lower()} {calibrated} under both readings" if calibrated == letter else
+                     f"{name.lower()} {calibrated} as calibrated, and {letter} to the letter")
     rest = {"Judged on this page too": [name for name in OWN if name not in sum(CARRYING.values(), ())]}
     sentences = "; ".join(stand), recorded.finding(report.record(), "T1")
     return recorded.shown(" ".join(f"{words[0].upper()}{words[1:]}." for words in sentences), CARRYING | rest)

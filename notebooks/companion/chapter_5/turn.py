@@ -1,4 +1,4 @@
-"""The Turn: a widget that runs an agent whose desires change, with learning on or off from there, in the reader's page."""
+"""The Turn: a widget that runs an agent whose desires change, with learning on or off from there, in the page."""
 
 from pathlib import Path
 

@@ -20,7 +20,6 @@ from companion.thesis.verdict import belongs
 from neorl.statistics import Estimate
 
 STYLE = resources.files(__package__) / "recorded.css"
-COLUMNS = "letter", "calibrated"  # readings
 SHOWN = report.CLAIMS_OF | {  # of pages that judge none
     "beyond_agents": ("C5",), "calibration": (*report.record()["shares"],), "chapter_1": ("T1",),
     "performance": ("T2", "T5")}
@@ -38,8 +37,10 @@ def answer(page):
 
 def shown(sentence, groups):
     """A sentence and the figure of some claims below it, as HTML for a notebook. groups: see `figure`."""
+    record = report.record()
+    note = NOTE + READINGS * any(name in record["letter"] for names in groups.values() for name in names)
     return HTML(f'<div class="recorded"><style>{STYLE.read_text("utf-8")}</style><p class="sentence">{sentence}</p>'
-                f"{figure(report.record(), groups, CLAIMS_PAGE)}<p class=\"note\">{NOTE}</p></div>")
+                f'{figure(record, groups, CLAIMS_PAGE)}<p class="note">{note}</p></div>')
 
 
 def sentence(record, names):
@@ -84,10 +85,13 @@ def figure(record, groups, claims_page=""):
 
     groups: {title or "": names of claims}. claims_page: the address of the page of claims, "" on this page.
     """
+    known = {name for names in groups.values() for name in names}
+    columns = {"letter": "To the letter", "calibrated": "Calibrated"} if known & {*record["letter"]} else {
+        "calibrated": "Here"}
     heads = "".join(f'<th scope="col">{head}</th>' for head in (
-        "Claim", LEGEND, "Thesis", *(f"{MARKERS[each]} {NAMES[each].capitalize()}" for each in COLUMNS)))
+        "Claim", LEGEND, "Thesis", *(f"{MARKERS[each]} {head}" for each, head in columns.items())))
     bodies = "".join(
-        f"<tbody>{_title(title)}{''.join(_line(record, name, claims_page) for name in names)}</tbody>"
+        f"<tbody>{_title(title)}{''.join(_line(record, name, columns, claims_page) for name in names)}</tbody>"
         for title, names in groups.items() if names)
     return f'<table class="numbers"><thead><tr>{heads}</tr></thead>{bodies}</table>'
 
@@ -121,7 +125,7 @@ def _title(title):
     return f'<tr><th colspan="5" scope="rowgroup">{escape(title)}</th></tr>' if title else ""
 
 
-def _line(record, name, claims_page):
+def _line(record, name, columns, claims_page):
     statement = STATEMENTS[name]
     found = {reading: record[part][name] for reading, part in report.PART_OF.items() if name in record[part]}
     compared = next((what for each in found.values() for what, (number, bounds, *_) in each["numbers"].items()
@@ -129,7 +133,7 @@ def _line(record, name, claims_page):
     bounds, other = bounds_of(name, compared), found and decisive(name, found.get("calibrated") or found["letter"])
     rests = (f"<small>decided by another number, {escape(other[0])}: {report.number({'here': other[1]})}, which must "
              f"be {escape(other[2].partition(' (')[0])}</small>" if other else "")
-    cells = "".join(f"<td>{_ours(found.get(reading))}</td>" for reading in COLUMNS)
+    cells = "".join(f"<td>{_ours(found.get(reading))}</td>" for reading in columns)
     thesis = statement.thesis if bounds.number is None else f"{bounds.number:g}"
     return (f'<tr><th scope="row" title="{escape(statement.text)}">{escape(statement.short)} '
             f"({link(name, claims_page)}){rests}</th><td>{_scale(bounds, found)}</td><td>{escape(thesis)}</td>"
@@ -198,8 +202,8 @@ def _estimate(here):
 
 
 MARKERS = {reading: f'<svg class="key" role="presentation"><g class="{reading}">{_marker(reading, "50%", 6)}</g></svg>'
-           for reading in COLUMNS}
-NOTE = ("From the committed record. To the letter: all gaps in the thesis’s text filled by the plainest choices; "
-        "calibrated: by those that fit its numbers best. Lines are 95\u00a0% intervals; arrows point beyond a line’s "
-        "end.")
+           for reading in report.PART_OF}
+NOTE = "From the committed record, with 95\u00a0% intervals; an arrow points beyond the end of its line."
+READINGS = (" To the letter: all gaps in the thesis’s text filled by the plainest choices. Calibrated: by those that "
+            "fit its numbers best.")
 LEGEND = ('<span class="key band"></span> agrees with the thesis, <span class="key thesis"></span> its number')
