@@ -122,6 +122,13 @@ def test_the_page_of_claims_has_all_of_them_and_its_links_lead_somewhere(open_pa
         assert f'id="{target}"' in (HTML / (name or "claims.html")).read_text(encoding="utf-8")
 
 
+def test_links_from_the_source_of_a_module_to_its_documentation_lead_somewhere():
+    for page in (HTML / "_modules").rglob("*.html"):
+        source = page.read_text(encoding="utf-8")
+        for name, target in re.findall(r'class="viewcode-back" href="([^"#]+)#([^"]+)"', source):
+            assert f'id="{target}"' in (page.parent / name).read_text(encoding="utf-8"), (page, target)
+
+
 def test_the_answer_has_a_row_for_each_claim_and_fits_on_a_phone(open_page):
     page = open_page(HTML, "claims.html")
     rows = page.locator("table.answer tbody a")
