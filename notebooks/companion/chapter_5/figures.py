@@ -4,7 +4,6 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from companion.chapter_5.trials import SECONDS_A_MOVE
-from companion.chapter_5.turn import Turn  # noqa: F401, the living one
 from companion.page.thesis_figures import draw_against_thesis, mark_levels
 from neorl.drawing.curves import draw_curves
 from neorl.drawing.style import CURVES, INK, name_ends

@@ -1,4 +1,4 @@
-"""The Turn: a widget that runs an agent whose desires change, with learning on or off from there, in the page."""
+"""The Turn: a widget that runs, in the page, an agent whose desires change, with learning on or off from there."""
 
 from pathlib import Path
 
