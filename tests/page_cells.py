@@ -26,15 +26,19 @@ HIDDEN = {"remove-input", "hide-input", "hide-cell"}
 PART = "part-of-experiment"  # the tag of folded cells below the experiment that run more
 
 
+def notebook(page):
+    """A page as committed."""
+    return json.loads((NOTEBOOKS / f"{page}.ipynb").read_text(encoding="utf-8"))
+
+
 def code(page):
     """The code in the cells of a page, in their order: {cell: source}."""
-    cells = json.loads((NOTEBOOKS / f"{page}.ipynb").read_text(encoding="utf-8"))["cells"]
-    return {each["id"]: "".join(each["source"]) for each in cells if each["cell_type"] == "code"}
+    return {each["id"]: "".join(each["source"]) for each in notebook(page)["cells"] if each["cell_type"] == "code"}
 
 
 def suggested(page, section):
     """What a section of a page suggests: programs to paste below the page, and arguments of papermill, two lists."""
-    cells = json.loads((NOTEBOOKS / f"{page}.ipynb").read_text(encoding="utf-8"))["cells"]
+    cells = notebook(page)["cells"]
     text = "\n\n".join("".join(each["source"]) for each in cells if each["cell_type"] == "markdown")
     _, _, text = text.partition(f"## {section}\n")
     blocks = [each for each in MarkdownIt().parse(re.split(r"^## ", text, flags=re.MULTILINE)[0])
@@ -55,7 +59,7 @@ def executed(page, changes=(), until=None, **parameters):
     for text, other in changes:
         assert any(text in cell for cell in cells.values()), text
         cells = {name: cell.replace(text, other) for name, cell in cells.items()}
-    first = next(name for name in cells if name != "answer")  # of the parameters
+    (first,) = [each["id"] for each in notebook(page)["cells"] if "parameters" in each["metadata"].get("tags", ())]
     named = set(re.findall(r"^(\w+): ", cells[first], re.MULTILINE))
     small = {name: value for name, value in (SMALL | ALSO_SMALL.get(page, {})).items() if name in named}
     cells[first] = with_values(cells[first], small | parameters)
@@ -83,7 +87,7 @@ def assert_captions_and_prose_speak_of_what_is_drawn(page, drawn):
 
     drawn: the `parts_drawn` of `executed`.
     """
-    for cell in json.loads((NOTEBOOKS / f"{page}.ipynb").read_text(encoding="utf-8"))["cells"]:
+    for cell in notebook(page)["cells"]:
         text = " ".join("".join(cell["source"]).split())
         if cell["cell_type"] == "code":
             shown = drawn[cell["id"]]

@@ -17,7 +17,7 @@ from neorl import CARDINAL, NresMap, Run, estimate
 from neorl.drawing.curves import draw_sums
 from neorl.drawing.style import GREEN, INK, RED, looks
 from neorl.drawing.value_maps import draw_cells, draw_values
-from companion.thesis.reading import LAYERS, SINGLE
+from companion.thesis.reading import LAYERS, LENGTHS, READINGS, SINGLE, conditions
 from companion.thesis.statements import STATEMENTS
 from companion.thesis.verdict import FINAL
 
@@ -61,13 +61,20 @@ def rates(results, share):
 
 
 def explorer_conditions(single, several):
-    """The conditions that the page's Explorer offers: {name: `Result`}."""
+    """The conditions that the page's Explorer offers: {name: `Condition` or `Result`}, as they were given."""
     *alone, together = several.items()
     seven = _as_in(7, together[1], _layers(several) == LAYERS)
     offered = {f"{seven}: {all_of(alone)} maps": together[1]}
     offered |= {f"{seven}: {name} alone": result for name, result in alone}
     of_paper = {*(f"N{n}" for n in SINGLE), "Brownian motion"}
     return offered | {f"{_as_in(6, result, name in of_paper)}: {name}": result for name, result in single.items()}
+
+
+def of_paper():
+    """The paper's own conditions, calibrated, as the page's Explorer offers them before the page has run any."""
+    made = conditions(READINGS["calibrated"], LENGTHS["A"], 1, groups=["single", "layers"])
+    single = {**{f"N{n}": made["single", n] for n in SINGLE}, "Brownian motion": made["brownian", 8]}
+    return explorer_conditions(single, {**{f"N{n}": made["layer", n] for n in LAYERS}, "all maps": made["layers"]})
 
 
 def _layers(several):

@@ -12,6 +12,7 @@ from neorl.drawing.boards import MARGIN, desire_colour
 from neorl.drawing.curves import draw_proficiency
 from neorl.drawing.network_figures import HEAD, LARGEST, draw_into, laid_out, write
 from neorl.drawing.style import width_of_figures
+from companion.thesis.reading import LENGTHS, READINGS, conditions
 from companion.thesis.statements import STATEMENTS
 from companion.thesis.verdict import FINAL
 from neorl.experiments.run import Run
@@ -107,3 +108,15 @@ def _distances(run, steps):
     beyond = np.abs(landed).max(axis=-1) > finest.modality.axes[0].high
     return (np.median(np.hypot(*np.moveaxis(landed, -1, 0)).max(axis=1)), at_agent.all(axis=1).mean(),
             beyond.all(axis=1).mean())
+
+
+def explorer_conditions(results, of_paper):
+    """The conditions that the page's Explorer offers: {name: `Condition` or `Result`}, as they were given."""
+    paper = "Paper C" if of_paper else "After paper C"
+    return {f"{paper}, figure 4e: network {name}": result for name, result in results.items()}
+
+
+def of_paper():
+    """The paper's own conditions, calibrated, as the page's Explorer offers them before the page has run any."""
+    made = conditions(READINGS["calibrated"], LENGTHS["C"], 1, groups=["networks"])
+    return explorer_conditions({name: made["network", name] for name in "ABCD"}, True)

@@ -5,6 +5,8 @@
 2. The thesis's numbers, and the names of its figures, go only with what the paper ran.
 """
 
+from dataclasses import replace
+
 from matplotlib.patches import Circle
 
 from companion.paper_b.receptive_fields import draw_receptive_fields
@@ -18,6 +20,7 @@ from neorl.drawing.boards import as_board, draw_tank, new_boards
 from neorl.drawing.style import AGENT, GREEN, INK
 from neorl.drawing.value_maps import draw_cells, draw_values
 from companion.thesis.measures import minutes_to_own_level
+from companion.thesis.reading import LENGTHS, PRIMES, READINGS, conditions
 from companion.thesis.statements import STATEMENTS
 
 OBJECT = (0.8, -0.4)  # where the object is as seen from the self, in board widths
@@ -104,7 +107,7 @@ def draw_points(per_reset, expected, of_paper):
 
 
 def explorer_conditions(results, place, objects, joined, of_paper):
-    """The conditions that the page's Explorer offers: {name: `Result`}."""
+    """The conditions that the page's Explorer offers: {name: `Condition` or `Result`}, as they were given."""
     paper = "Paper B" if of_paper else "After paper B"
     together = results["PC + OVC"]
     offered = {f"{paper}, figure 5: {CELLS['PC + OVC']} cells": together}
@@ -112,3 +115,12 @@ def explorer_conditions(results, place, objects, joined, of_paper):
         offered |= {f"{paper}, figure {figure}: {CELLS[agent]} cells, {n}": result
                     for n, result in (alone | {"all": results[agent]}).items()}
     return offered | {f"{paper}: object-vector cells join": joined}
+
+
+def of_paper():
+    """The paper's own conditions, calibrated, as the page's Explorer offers them before the page has run any."""
+    made = conditions(READINGS["calibrated"], LENGTHS["B"], 1, groups=["modal", "resolutions"])
+    agents = {"PC": made["place", "all"], "OVC": made["objects", "all"], "PC + OVC": made["both"]}
+    place, objects = ({f"N{n}": made[kind, n] for n in PRIMES} for kind in ("place", "objects"))
+    joined = replace(agents["PC"], changes=((agents["PC"].steps // 2, agents["PC + OVC"].agent),))
+    return explorer_conditions(agents, place, objects, joined, True)
