@@ -153,6 +153,21 @@ def test_the_first_chapter_plays_two_lives_side_by_side(open_page):
     assert replay.locator(".title").all_inner_texts() == ["Newborn", "Veteran"]
 
 
+def test_the_living_figures_of_chapters_run_and_the_pages_hold_no_module_twice(open_page):
+    page = open_page(HTML, "chapters/chapter_5.html")
+    turn = page.locator(".neorl-turn")
+    turn.scroll_into_view_if_needed()
+    for learning in ("on", "off"):
+        page.wait_for_selector(".neorl-turn[data-state=whole]")
+        expect(turn.locator(".legend")).to_contain_text(f"learning {learning} after the turn")
+        turn.get_by_label("Learning goes on").set_checked(False)
+    assert page.content().count('"_wasm"') == 1
+    page = open_page(HTML, "chapters/chapter_4.html")
+    page.get_by_role("button", name="Next change of cell").click()
+    expect(page.locator(".neorl-changes tbody tr")).to_have_count(4)
+    assert '"_wasm"' not in page.content()
+
+
 @pytest.mark.parametrize("chapter", range(1, 6))
 def test_a_term_leads_to_the_glossary_and_from_there_to_the_function(open_page, chapter):
     page = open_page(HTML, f"chapters/chapter_{chapter}.html")

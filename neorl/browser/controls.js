@@ -49,10 +49,17 @@ class Controls {
   /** What a run is called whose only control stands beside the tank: by its setting. */
   settingText() {
     const { model, presets, only } = this;
-    const value = model.get(only);
+    const value = model.get(only) ?? "";
+    const nameOf = (preset) => presets[preset].label.split(": ").at(-1); // without its figure
+    if (only && value === "") return nameOf(model.get("preset")); // an agent without such a setting
     const texts = { resolutions: () => inOrder(value).map((n) => `N${n}`).join(", "), modality: () => value,
-      object_state: () => STATES[value], preset: () => presets[value].label };
+      object_state: () => STATES[value], preset: () => nameOf(value) };
     return only && (texts[only]?.() ?? `${NAMES[only]} ${shown(value)}`);
+  }
+
+  /** Let the next run be drawn as a whole, if this control stands by itself. */
+  drawWhole(name) {
+    if (name === this.only) this.write({ playing: true, speed: 0 });
   }
 
   /** Keep the reward of a run that is over, to be drawn beside the next one, which has another setting. */
@@ -79,6 +86,7 @@ class Controls {
       heat: () => this.look(this.layers()), trail: () => this.wake(),
       beside: () => this.chooseSecond(), learned: () => this.chooseSecond(),
       "element-valence": () => this.changeElement(this.selected, { valence: Number(value) }) }[name];
+    this.drawWhole(name);
     if (act) return act();
     const [, node] = name.match(/^gain-(\d+)$/) ?? [];
     return this.write(node ? { gains: this.model.get("gains").with(node, Number(value)) } : { [name]: Number(value) });
@@ -181,6 +189,7 @@ class Controls {
   }
 
   toggleResolution(one) {
+    this.drawWhole("resolutions");
     const before = this.model.get("resolutions");
     const after = before.includes(one) ? before.filter((other) => other !== one) : inOrder([...before, one]);
     if (after.length) this.write({ resolutions: after });

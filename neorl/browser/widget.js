@@ -115,7 +115,6 @@ class Explorer extends Saving {
       const names = [...noted];
       noted.clear();
       if (names.some((name) => name !== "near")) this.forgive();
-      if (names.includes(this.only) && this.touched) this.write({ playing: true, speed: 0 });
       const before = this.condition;
       this.condition = conditionOf(model.get("_layout").plane, presets, modalities, this.settings());
       if (this.condition !== before || !before) this.offerRuns();

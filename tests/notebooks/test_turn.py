@@ -46,7 +46,7 @@ def test_the_page_catches_what_python_catches_with_learning_on_and_off(visit):
     expect(page.locator(".lived")).to_have_text("8 minutes · red is wanted")
     reds = caught("on")
     expect(page.locator(".said")).to_have_text(
-        f"Red creeps a minute: {reds[2:4].mean():.1f} before the turn, {reds[4]:.1f} in the first minute after it, "
+        f"Red creeps a minute: {reds[2:4].mean():.1f} before the turn, {reds[4]:.1f} in the minute after it, "
         f"{reds[6:].mean():.1f} in the last 2 minutes.")
     expect(legend).to_have_text("learning on after the turn")
     page.get_by_label("Learning goes on after the turn").uncheck()

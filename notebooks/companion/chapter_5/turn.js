@@ -21,28 +21,16 @@ class Turn {
     [this.tank, this.reds] = this.root.querySelectorAll("canvas");
     place.append(this.root);
     [this.play, this.learns] = this.root.querySelectorAll("button, input");
-    this.play.addEventListener("click", () => {
-      this.isPlaying = !this.isPlaying;
-      this.wake();
-    });
-    this.learns.addEventListener("change", () => this.turned());
-    const sight = new IntersectionObserver((entries) => {
-      this.inSight = entries.at(-1).isIntersecting;
-      this.wake();
-    });
+    this.play.addEventListener("click", () => this.wake({ isPlaying: !this.isPlaying }));
+    this.learns.addEventListener("change", () => this.wake({ setting: this.learns.checked ? "on" : "off", life: null,
+      isPlaying: true, before: this.life?.isWhole ? { ...this.lineOf(this.life), isPale: true } : this.before }));
+    const sight = new IntersectionObserver((entries) => this.wake({ inSight: entries.at(-1).isIntersecting }));
     sight.observe(this.root);
     const unwatch = watchLook([this.tank, this.reds], () => this.wake());
     this.stop = () => {
       for (const end of [() => sight.disconnect(), unwatch, () => this.engine?.stop()]) end();
       this.root.remove();
     };
-  }
-
-  turned() {
-    const { life, learns } = this;
-    if (life?.isWhole) this.before = { ...this.lineOf(life), isPale: true };
-    Object.assign(this, { setting: learns.checked ? "on" : "off", life: null, isPlaying: true });
-    this.wake();
   }
 
   /** Begin a run, whose agent changes at the turn, or advance it. */
@@ -52,12 +40,14 @@ class Turn {
     const given = request.type === "begin" ? runs[setting] : {};
     life.isBusy = true;
     const frame = await this.engine.ask({ ...given, ...request });
-    if (life !== this.life) return;
+    if (!frame || life !== this.life) return;
     Object.assign(life, { frame, isBusy: false, isWhole: frame.step >= life.steps });
     this.wake();
   }
 
-  wake() {
+  /** Draw what has changed, and go on if there is anything to do. */
+  wake(changed = {}) {
+    Object.assign(this, changed);
     this.asked ??= requestAnimationFrame(guarded((now) => this.tick(now), (message) => this.fail(message)));
   }
 
@@ -92,16 +82,18 @@ class Turn {
     const [colours, line, { frame, fps, steps, isWhole }] = [readColours(root), this.lineOf(life), life];
     const [turn, end] = [this.runs[this.setting].changes[0].step, steps].map((step) => step / fps);
     drawArena(this.tank, colours, { ...frame, seen: null, nodes: [], landings: [] }, { trail: true });
-    drawCurves(this.reds, colours, { ...line.span, mark: { second: turn, text: "red becomes good" } }, [before, line].filter(Boolean));
-    part(".legend").innerHTML = [line, before].filter(Boolean).map(({ colour, setting: learning, isPale }) =>
+    const [span, lines] = [{ ...line.span, mark: { second: turn, text: "red becomes good" } }, [line, before]];
+    drawCurves(this.reds, colours, span, lines.filter(Boolean).reverse());
+    part(".legend").innerHTML = lines.filter(Boolean).map(({ colour, setting: learning, isPale }) =>
       `<span class="swatch" style="border-top: 2px solid var(--${colour})"></span>learning ${learning}`
       + (isPale ? ", the run before" : " after the turn")).join(" · ");
     const wanted = frame.wants.some(({ kind, valence }) => kind === "red" && valence > 0) ? "wanted" : "avoided";
     part(".lived").textContent = `${Math.floor(frame.step / fps / 60)} minutes · red is ${wanted}`;
-    const mean = (from, to) => (line.totals.slice(from, to).reduce((sum, each) => sum + each, 0) / (to - from)).toFixed(1);
-    const [half, late] = [turn, (turn + end) / 2].map((second) => Math.floor(second / 60));
-    part(".said").textContent = isWhole ? `Red creeps a minute: ${mean(Math.floor(half / 2), half)} before the turn, `
-      + `${mean(half, half + 1)} in the first minute after it, ${mean(late, Math.floor(end / 60))} in the last ${Math.floor(end / 60) - late} minutes.` : "";
+    const mean = (from, to) =>
+      (line.totals.slice(from, to).reduce((sum, each) => sum + each, 0) / (to - from)).toFixed(1);
+    const [quarter, half, late, last] = [0.5 * turn, turn, (turn + end) / 2, end].map((at) => Math.floor(at / 60));
+    part(".said").textContent = isWhole && quarter ? `Red creeps a minute: ${mean(quarter, half)} before the turn, `
+      + `${mean(half, half + 1)} in the minute after it, ${mean(late, last)} in the last ${last - late} minutes.` : "";
     if (isWhole) root.dataset.caught = line.totals.join(" ");
   }
 

@@ -1,8 +1,8 @@
 """The toolkit of pages: what every notebook needs beside its own experiment.
 
 `answer` opens a page with what the record says of its claims, and `Living` is a figure to try. `begin` checks the
-parameters, `judge` and `judge_papers` judge the claims about what was run, `verdicts` shows these beside the record, and
-`save` keeps them. The rest is numbers, tables and parts of figures.
+parameters, `judge` and `judge_papers` judge the claims about what was run, `verdicts` shows these beside the record,
+and `save` keeps them. The rest is numbers, tables and parts of figures.
 """
 
 from companion.page.beginning import begin, listed, source
