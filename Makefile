@@ -1,4 +1,4 @@
-# make book   compute every notebook and build the book   RUNS=10 runs per condition; 4 is a quick look, 100 the papers' scale
+# make book   compute every notebook and build the book   RUNS=3 runs per condition; 10 give verdicts, 100 the papers' scale
 #                                                         READING=letter for the reading of the thesis to the letter
 #                                                         JOBS=2 notebooks at a time, of up to 4 GB each
 # make test   run the tests                               WORKERS=4 processes, since tests of pages wait for a browser
@@ -21,7 +21,7 @@ PYTHON ?= python3
 WHEEL ?=
 SAMPLE ?= 20
 SEED ?=
-RUNS ?= 10
+RUNS ?= 3
 READING ?= calibrated
 STEPS ?=
 JOBS ?= 2
@@ -42,6 +42,7 @@ LONG := assumptions beyond_agents calibration paper_a paper_b paper_c
 TIMED := performance
 CONCLUSION := chapter_5
 TOGETHER := $(filter $(NAMES),$(LONG)) $(filter-out $(LONG) $(TIMED) $(CONCLUSION),$(NAMES))
+EXPLORERS := $(notdir $(basename $(shell grep -l neorl.Explorer notebooks/*.ipynb)))
 SOURCES := $(shell find neorl notebooks/companion -type f -not -path '*/__pycache__/*') environment.txt \
     $(addprefix book/computing/,cells.py compute.py excerpts.py programs.py)
 HTML := _build/html/index.html
@@ -61,6 +62,13 @@ book test: export OPENBLAS_NUM_THREADS := 1
 $(CHAPTERS)/%.ipynb: notebooks/%.ipynb $(SOURCES) $(CHAPTERS)/.parameters
 	@$(BIN)/python book/computing/compute.py $< --runs $(RUNS) $(if $(STEPS),--steps $(STEPS)) --reading $(READING)
 
+# One core builds the WebAssembly modules while the first page compiles the kernels for all others.
+$(CHAPTERS)/.modules: $(SOURCES)
+	@mkdir -p $(@D)
+	@$(BIN)/python -c "from neorl.browser import wasm; wasm.modules(at_once=1)"
+	@touch $@
+
+$(call page,$(EXPLORERS)): | $(CHAPTERS)/.modules
 $(call page,$(TIMED)): | $(call page,$(TOGETHER))
 $(call page,$(CONCLUSION)): $(call page,$(filter-out $(CONCLUSION),$(NAMES)))
 

@@ -15,7 +15,6 @@ from pathlib import Path
 
 import nbformat
 import papermill
-from companion.page.opening import CLAIMS_PAGE
 from nbclient.exceptions import DeadKernelError
 from papermill.exceptions import PapermillExecutionError, strip_color
 from traitlets.config import Config
@@ -28,6 +27,7 @@ from neorl.common.files import cache_folder
 ROOT = Path(__file__).resolve().parents[2]
 CHAPTERS = ROOT / "book" / "chapters"
 GLOSSARY = ROOT / "book" / "glossary.md"
+CLAIMS_PAGE = "../book/claims.md"  # as in `companion.page.opening`, which would take a second to import for each page
 
 
 def main():
