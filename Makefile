@@ -42,7 +42,7 @@ LONG := assumptions beyond_agents calibration paper_a paper_b paper_c
 TIMED := performance
 CONCLUSION := chapter_5
 TOGETHER := $(filter $(NAMES),$(LONG)) $(filter-out $(LONG) $(TIMED) $(CONCLUSION),$(NAMES))
-EXPLORERS := $(notdir $(basename $(shell grep -l neorl.Explorer notebooks/*.ipynb)))
+EXPLORERS := $(notdir $(basename $(shell grep -l -e neorl.Explorer -e 'import Turn' notebooks/*.ipynb)))
 SOURCES := $(shell find neorl notebooks/companion -type f -not -path '*/__pycache__/*') environment.txt \
     $(addprefix book/computing/,cells.py compute.py excerpts.py programs.py)
 HTML := _build/html/index.html
