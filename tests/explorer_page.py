@@ -75,7 +75,11 @@ def wait_for_frame_in_flight(page):
 
 
 def press(page, action):
-    page.locator(f'.neorl-explorer [data-action="{action}"]').first.click()
+    """Press a button, and unfold the others before if it is one of them."""
+    button = page.locator(f'.neorl-explorer [data-action="{action}"]').first
+    if not button.is_visible():
+        page.locator(".neorl-explorer details").first.evaluate("folded => { folded.open = true; }")
+    button.click()
 
 
 def drop_by_keyboard(page):

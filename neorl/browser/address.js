@@ -143,9 +143,10 @@ class Address extends Tour {
   }
 
   /** The address of the settings and the view, and of the present moment, unless the run was changed on the way by more
-   * than what is dropped there. */
+   * than what is dropped there. That of a run in which red became desirable begins it anew. */
   addressOfNow(isMoment) {
-    const { elements, life: { frame, changed, world }, presets, model } = this;
+    const { elements, life: { frame, changed, world, turn }, presets, model } = this;
+    if (turn) return `${PREFIX}_agent-${slug(model.get("preset"))}_start-red`;
     const settings = { ...this.settings(), seed: model.get("seed"), run: model.get("run") };
     const seconds = isMoment && frame && (!changed || elements.length) ? frame.step / world.fps : 0;
     const { name: map = "", goal = null } = frame?.seen ?? {};

@@ -30,10 +30,11 @@ class Controls {
     const help = Object.assign(document.createElement("p"), { className: "help", textContent: HELP[name] });
     const first = Object.assign(document.createElement("div"), { className: "only" });
     first.append(label.closest(".setting") ?? label, help);
-    this.part(".starters").prepend(this.action("tour"));
+    this.part(".starters").prepend(this.action("red"), this.action("tour"));
     this.part(".more").prepend(...[".bar", ".settings", ".starters", ".tools"].map((each) => this.part(each)));
     this.part(".columns").prepend(first);
     this.part("summary").textContent = "All controls";
+    this.isPart = true;
   }
 
   /** Offer the agents of the page before all others, and as resolutions those of their maps. */
@@ -79,7 +80,8 @@ class Controls {
     const act = { resolutions: () => this.writeResolutions(target), preset: () => this.chooseAgent(value),
       modality: () => this.write({ modality: value }), object_state: () => this.write({ object_state: value }),
       speed: () => this.write({ speed: SPEEDS[value] }),
-      learning_rate: () => this.write({ learning_rate: power(value) }), "open-run": () => null,
+      learning_rate: () => this.write({ learning_rate: power(value) }),
+      learns: () => this.write({ learning_rate: target.checked ? this.rate : 0 }), "open-run": () => null,
       horizon: () => this.write({ discount: 1 - 1 / power(value) }),
       memory: () => this.write({ memory: Number(value) === NO_MEMORY ? 0 : power(value) }),
       map: () => this.look({ map: value, goal: null }), field: () => this.look(this.layers()),
@@ -102,6 +104,7 @@ class Controls {
       game: () => (this.life.game ? this.leaveGame() : this.joinGame()), clear: () => this.clearElements(),
       tour: () => this.startTour(), next: () => this.nextStop(), end: () => this.endTour() };
     this.touched ||= action in acts;
+    if (TO_WATCH.includes(action)) this.showTank();
     return acts[action]?.();
   }
 
@@ -213,7 +216,6 @@ class Controls {
     if (!running && before === "running" && frame) life.rate = 0, this.report();
     this.action("play").textContent = frame?.ended ? "Play again" : model.get("playing") ? "Pause" : "Play";
     this.action("drop").disabled = !frame || this.elements.length >= MOST_ELEMENTS;
-    this.action("clear").disabled = !frame || !this.elements.length;
     this.action("drop").ariaPressed = Boolean(this.dropping);
     Object.assign(this.action("step"), { disabled: !frame, hidden: frame?.ended });
     this.action("go-on").hidden = !frame?.ended;
@@ -226,6 +228,8 @@ class Controls {
     this.part(".pad").hidden = !game;
     this.showSpeed();
     this.part(".element").hidden = this.selected === null;
+    const preset = this.presets[model.get("preset")];
+    this.offer("learns", preset && canStopLearning(preset) && (!this.isPart || life.turn));
     this.showLegend();
     this.writeAddress();
     this.wake();
@@ -245,7 +249,7 @@ class Controls {
   showControls() {
     const { model } = this;
     const preset = this.presets[model.get("preset")];
-    const { nodes, modality, recursion, red, avoided, can_remember, parameters: { learning } } = preset;
+    const { nodes, modality, recursion, red, avoided, can_remember, learning_rate, parameters: { learning } } = preset;
     this.control("valence_red").previousElementSibling.textContent = `Valence of ${AVOIDED[avoided] ?? "red"}`;
     for (const name of ["modality", "seed", "run"]) this.control(name).value = model.get(name);
     this.offer("modality", nodes.length === 1 && modality !== "");
@@ -262,6 +266,8 @@ class Controls {
     const sliders = ["recursion", "valence_red", "n_creeps", "exploration"];
     for (const name of sliders) this.showSlider(name, model.get(name) ?? 0);
     const [rate, horizon, memory] = [model.get("learning_rate"), 1 / (1 - model.get("discount")), model.get("memory")];
+    this.rate = rate || this.rate || learning_rate; // with which learning goes on when it is switched on again
+    this.control("learns").checked = rate > 0;
     this.showSlider("learning_rate", Math.log10(rate || 0.001), shown(rate));
     const discounts = learning.bootstrap || memory > 0;
     this.control("horizon").disabled = !discounts;
@@ -333,6 +339,7 @@ class Controls {
       `${kind} ${shown((ratesOf(counts, span, 60).rates.at(-1) ?? 0).toFixed(1))}`).join(", ");
     const met = frames.map((each, tank) => `${second ? `${this.names()[tank]} ` : ""}${inWords(each)}`);
     this.part(".of-catches").textContent = `${this.hasCreeps() ? "Caught" : "Met"} a minute: ${met.join(" · ")}`;
+    this.part(".counts").textContent = this.turnText();
     const wanted = new Set((frame?.wants ?? []).map(({ kind, valence }) => `${kind} ${signed(valence)}`));
     const dropped = this.elements.map(({ valence }) => `element ${signed(valence)}`);
     this.part(".wants").textContent = frame ? `Wants: ${[...wanted, ...dropped].join(", ")}` : "";
@@ -380,6 +387,7 @@ class Controls {
     if (game) said.push(STEER);
     if (seen.goal !== null) said.push(describeWay(frame));
     if (due?.news ?? news) said.push(due?.news ?? news);
+    else said.push(...this.turnSentences());
     return said;
   }
 }

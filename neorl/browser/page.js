@@ -8,6 +8,7 @@ const [DOUBLE_TAP, NEARBY] = [350, 0.06]; // milliseconds and board widths betwe
 const NO_MEMORY = -1; // its position on the slider, which has logarithms to base ten
 const THRUST_EVERY = 90; // milliseconds; a held key pushes for single steps, since the player could not steer otherwise
 const [REACH, SLOW, REACHING] = [0.05, 0.2, 1500]; // near a creep: board widths, times real time, milliseconds
+const TO_WATCH = ["red", "watch", "corner", "compare", "game"]; // things to try, for which the tank comes into sight
 const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0], ArrowLeft: [3, -1, 0] };
 const NEW_RUN = ["preset", "memory", "resolutions", "modality", "object_state", "n_creeps", "seed", "run"];
 const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
@@ -38,6 +39,8 @@ const number = (name, label) => `<label class="labelled"><span>${label}</span><i
   min="0" max="${MOST_SEED}" value="0" required></label>`;
 const tick = (name, label, state) => `<label class="tick"><input type="checkbox" name="${name}" ${state}>${label}
   </label>`;
+const toggle = (name, label) => `<label class="tick"><input type="checkbox" role="switch" name="${name}">${label}
+  </label>`;
 const press = (action, label) => `<button type="button" data-action="${action}">${label}</button>`;
 const chip = (n) => `<button type="button" data-chip="${n}" aria-label="Resolution ${n}">${n}</button>`;
 const pad = (key) => `<button type="button" data-key="Arrow${key.slice(0, -2)}" aria-label="${key.slice(0, -2)}">
@@ -46,7 +49,8 @@ const graph = (kind, title, label) => `<p class="title of-${kind}">${title}</p><
   aria-label="${label}"></canvas>`;
 // The tank comes first, also for the keyboard.
 const pageOf = (id) => `<p role="alert" hidden></p>
-  <div class="columns"><div class="board"><p class="lived"></p><p class="wants"></p>
+  <div class="columns"><div class="board"><p class="lived"></p>
+    <div class="aims"><p class="wants"></p><p class="counts"></p></div>
     <div class="tanks"><div class="first"><p class="named" hidden></p>
       <div class="space"><p class="title" hidden>Joint space: first joint across, second down</p>
       <div class="arena"><canvas tabindex="0" role="application" aria-describedby="${id}" aria-label="The world. Space
@@ -54,21 +58,17 @@ const pageOf = (id) => `<p role="alert" hidden></p>
       <div class="grips"></div><div class="marks"></div></div></div></div>
       <div class="second" hidden><p class="named"></p><canvas role="img" aria-label="The second tank"></canvas></div></div>
     <div class="pad" hidden>${["Left ←", "Up ↑", "Down ↓", "Right →"].map(pad).join("")}</div>
-    <div class="buttons">${press("play", "Play")}${press("go-on", "Go on")}${press("step", "Step")}
-      ${press("new-run", "New run")}${press("reset", "Reset")}${press("tour", "Take the tour")}</div>
+    <div class="buttons">${press("play", "Play")}${press("go-on", "Go on")}${press("red", "Make red good")}
+      ${press("reset", "Reset")}${press("tour", "Take the tour")}</div>
     <div class="versus" hidden>${choice("beside", "Second tank")}${choice("learned", "has learned for")}</div>
+    <div class="shown">${toggle("learns", "Learning")}${tick("field", "Arrows", "checked")}${tick("heat", "Value", "")}
+      ${tick("trail", "Trail", "checked")}</div>
     <p class="unseen" id="${id}"></p><p class="said"></p>
     <div class="starters buttons" role="group" aria-label="Things to try">${press("compare", "Newborn beside veteran")}
-      ${press("watch", "Watch it learn")}${press("red", "Make red desirable half-way")}
-      ${press("corner", "Show the way to a corner")}${press("game", "Play against it")}</div>
+      ${press("game", "Play against it")}${press("drop", "Drop an element")}</div>
     <div class="element" hidden>${slide("element-valence", "Its valence", -2, 2, 0.1)}
-      ${press("delete", "Delete")}</div>
-    <div class="tools buttons">${press("drop", "Drop an element")}${press("clear", "Clear all")}
-      ${press("link", "Copy link")}${press("picture", "Save picture")}${press("csv", "Save as CSV")}
-      ${press("alone", "Tank only")}</div>
-    <div class="shown">${choice("map", "Map shown")}</div>
-    <div class="shown">${tick("field", "Arrows", "checked")}${tick("heat", "Value", "")}
-      ${tick("trail", "Trail", "checked")}</div></div>
+      ${press("delete", "Delete")}${press("clear", "Delete all")}</div>
+    <div class="shown">${choice("map", "Map shown")}</div></div>
   <div class="side"><div class="limb" hidden><p class="title">Workspace: the plane in which the arm moves</p>
     <canvas role="img" aria-label="The arm in the plane, with the points that it seeks and avoids"></canvas></div>
     <div class="bar">${choice("preset", "Agent")}${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
@@ -83,7 +83,10 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     <div class="open">${number("open-run", "Open run")}<span class="of"></span>${press("open", "Open")}</div></div></div>
   <ul class="key" aria-label="What the tank shows"></ul></div>
   <p class="refused" role="status"></p>
-  <details><summary>More</summary><div class="more">${slide("exploration", "Exploration ε", 0, 1, 0.01)}
+  <details><summary>More</summary><div class="more"><div class="tools buttons">${press("step", "Step")}
+    ${press("new-run", "New run")}${press("watch", "Watch it learn")}${press("corner", "Show the way to a corner")}
+    ${press("link", "Copy link")}${press("picture", "Save picture")}${press("csv", "Save as CSV")}
+    ${press("alone", "Tank only")}</div>${slide("exploration", "Exploration ε", 0, 1, 0.01)}
     ${slide("learning_rate", "Learning rate α", -3, 0, 0.01)}
     ${slide("horizon", "Horizon, cells", 0, 3, 0.01)}${slide("memory", "Memory, cells", NO_MEMORY, 3, 0.01)}
     ${slide("n_creeps", "Creeps", 1, 12, 1)}<div class="gains"></div>
@@ -105,7 +108,7 @@ const indexOf = (element) => [...element.parentElement.children].indexOf(element
 /** Everything the page holds of one run; every run has its own, and they share nothing. */
 const newLife = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { steps: 1, bin: 1 }, changed: false,
   advancing: false, owed: 0, counted: 0, rate: 0, cursor: null, game: null, held: null, slid: false, dragged: null,
-  tapped: null, pointer: null, second: null, changes: [], due: null, news: "", ...given });
+  tapped: null, pointer: null, second: null, changes: [], due: null, news: "", turn: null, ...given });
 
 /** Fill a menu with agents, in groups, after an option of its own, if any. */
 function fillMenu(menu, presets, keys, first = null) {

@@ -8,7 +8,8 @@ class Saving extends Address {
       ?? "The address of the page is the link.";
     const but = "This run was changed on the way: the link begins it anew, with the present settings";
     const drops = this.elements.length ? ", and drops the elements at this moment" : "";
-    this.life.news = this.life.changed ? `${copied} ${but}${drops}.` : copied;
+    const { changed, turn } = this.life;
+    this.life.news = turn ? `${copied} It makes red good again.` : changed ? `${copied} ${but}${drops}.` : copied;
     this.refresh();
   }
 

@@ -6,16 +6,17 @@ const STOPS = [
     text: "The blue disc is the agent. Green creeps pay +1, red ones −1. The shaded cell is where it is, on one of its "
       + "maps. It has learned nothing yet." },
   { at: `[data-action="play"]`, act: (page) => page.write({ speed: 5, playing: true }),
-    text: "It explores. From every move it learns something about the ways to all cells, whatever it wants." },
+    text: "It knows nothing yet, so chance decides. From every move it learns something about the ways to all cells, "
+      + "whatever it wants." },
   { at: ".space", act: (page) => page.runAhead(),
     text: `${grouped(LEARNED)} steps later it has learned from green creeps and red ones. Dashed arrows are its desires: `
       + "where each kind of cell would take it now." },
   { at: `[name="heat"]`, act: (page) => page.showValue(),
     text: "The deeper the green of the ground, the more it is worth to be there: the values of all desires, added up. "
       + "They follow the creeps." },
-  { at: `[data-action="drop"]`, act: (page) => page.addElement({ x: 0.25, y: 0.25 }),
+  { at: ".space", act: (page) => page.addElement({ x: 0.25, y: 0.25 }),
     text: "Now something to desire at the top left, worth +1. It counts at once, with what was learned before. Drag it "
-      + "about, or drop more." },
+      + "about, or drop more by “Drop an element”." },
   { at: ".versus", act: (page) => page.meetVeteran(),
     text: "Two tanks, one seed: the newborn begins without knowledge, the veteran has learned for 100 minutes. The menus "
       + "below the tanks set any other agent beside the first." },

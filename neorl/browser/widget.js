@@ -55,7 +55,6 @@ class Explorer extends Saving {
     };
     on(this.root, "input change", (event) => this.turned(event));
     on(this.root, "click", ({ target, detail }) => this.clicked(target.closest("button")?.dataset ?? {}, detail));
-    on(this.part(".starters"), "click", () => this.showTank());
     on(this.root, "keydown", (event) => this.pressed(event));
     on(this.root, "focusin", ({ target }) => target.matches(".interest") && this.select(indexOf(target)));
     const tank = this.part(".arena");

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from explorer_page import wait, write_page
+from explorer_page import press, wait, write_page
 from playwright.sync_api import expect
 
 from neorl import Explorer
@@ -124,7 +124,7 @@ def test_requests_to_the_previous_run_are_not_answered(explorer):
             return Promise.resolve().then(() => act(0.7));
         }""", [step, menu, second])
         wait(explorer, "paused")
-        explorer.locator(step).click()  # which the worker answers last
+        press(explorer, "step")  # which the worker answers last
         explorer.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 0")
         root = explorer.locator(".neorl-explorer")
         assert [root.get_attribute(f"data-{name}") for name in ("step", "goal")] == ["1", ""]
@@ -165,14 +165,14 @@ FAULTS = [
 @pytest.mark.parametrize("what, fault", FAULTS)
 def test_a_fault_is_reported_and_reset_recovers_from_it(explorer, what, fault):
     explorer.evaluate(f"() => {{ window.sound = {what}; {what} = {fault}; }}")
-    explorer.locator('[data-action="step"]').click()
+    press(explorer, "step")
     alert = explorer.locator("[role=alert]")
     expect(alert).to_have_text("The simulation has stopped. Reset restarts it.")
     explorer.evaluate(f"() => {{ {what} = window.sound; }}")
     explorer.locator('[data-action="reset"]').click()
     wait(explorer, "paused")
     expect(alert).to_be_hidden()
-    explorer.locator('[data-action="step"]').click()
+    press(explorer, "step")
     explorer.wait_for_function("document.querySelector('.neorl-explorer').dataset.step === '1'")
 
 

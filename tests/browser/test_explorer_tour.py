@@ -49,7 +49,7 @@ def test_its_stops_operate_the_controls_and_at_its_end_the_reader_is_where_it_st
     expect(panel.get_by_role("button", name="Next")).to_be_focused()
 
     page.keyboard.press("Enter")
-    expect(status).to_contain_text("2 of 6: It explores.")
+    expect(status).to_contain_text("2 of 6: It knows nothing yet, so chance decides.")
     wait_for(page, "state === 'running' && Number(step) > 10")
 
     page.keyboard.press("Enter")
@@ -108,7 +108,7 @@ def test_a_link_that_is_followed_on_the_way_is_not_taken_back_at_the_end(page):
 
 
 @pytest.mark.parametrize("width", [400, 1200])
-def test_what_a_stop_points_at_is_on_the_screen_and_not_below_the_tour(page, width):
+def test_what_a_stop_points_at_and_the_tank_are_on_the_screen_and_not_below_the_tour(page, width):
     page.set_viewport_size({"width": width, "height": 800})
     page.evaluate("document.body.style.cssText = 'max-width: 1000px'")  # about the width of the book's pages
     press(page, "tour")
@@ -116,8 +116,10 @@ def test_what_a_stop_points_at_is_on_the_screen_and_not_below_the_tour(page, wid
         expect(page.locator(".tour [role=status]")).to_contain_text(f"{stop} of 6")
         page.wait_for_function("""() => {
             const { top } = document.querySelector(".tour").getBoundingClientRect();
-            const pointed = document.querySelector(".pointed").getBoundingClientRect();
-            return pointed.height > 0 && pointed.top >= 0 && pointed.bottom <= top;
+            const [pointed, tank] = [".pointed", ".arena canvas"].map((each) =>
+                document.querySelector(each).getBoundingClientRect());
+            const hidden = Math.max(0, -tank.top) + Math.max(0, tank.bottom - top);
+            return pointed.height > 0 && pointed.top >= 0 && pointed.bottom <= top && hidden < 0.1 * tank.height;
         }""")
         assert page.evaluate("document.documentElement.scrollWidth") <= width
         wait_for(page, "state !== 'loading'")

@@ -8,7 +8,7 @@ import pytest
 from explorer_page import drop_by_keyboard, press, wait, write_page
 from playwright.sync_api import expect
 
-from neorl import Explorer, Policy, Run, WaterWorld, object_vector_cells, place_cells, simulate
+from neorl import Explorer, Run, WaterWorld, object_vector_cells, place_cells, simulate
 from neorl.core.horde import as_vectors
 
 TANK = WaterWorld()
@@ -36,18 +36,67 @@ def shown(page, name):
     return page.locator(".neorl-explorer").get_attribute(f"data-{name}")
 
 
-def test_red_becomes_desirable_in_the_middle_of_the_run(visit):
+def wanting_red(agent, **learning):
+    return replace(agent, desires=[replace(each, valence=1.0) for each in agent.desires],
+                   learning=replace(agent.learning, **learning))
+
+
+def test_red_becomes_good_in_the_middle_of_a_short_run_learning_stops_and_red_creeps_are_counted(visit):
     page = visit()
     press(page, "red")
+    expect(page.locator(".said")).to_contain_text("First it learns for 2 minutes")
     wait(page, "ended")
-    run = Run(PLACES, TANK, SIZE["seed"], 0)
-    reward = run.advance(6_000)
-    run.change(replace(PLACES, desires=[replace(each, valence=1.0) for each in PLACES.desires],
-                       policy=Policy(exploration=0.05)))
-    assert float(shown(page, "score")) == reward + run.advance(6_000)
+    run, reds = Run(PLACES, TANK, SIZE["seed"], 0), []
+    for minutes, agent in ((2, PLACES), (1, wanting_red(PLACES, learning_rate=0.0)), (1, None)):
+        if agent:
+            run.change(agent)
+        reds.append(run.record(60 * TANK.fps * minutes).hits[:, TANK.kinds.index("red")].sum() / minutes)
+    expect(page.locator(".counts")).to_have_text(f"Red a minute: {reds[0]:g}, then {reds[1]:g}, now {reds[2]:g}")
     expect(page.locator('[name="valence_red"]')).to_have_value("1")
-    expect(page.locator('[name="exploration"]')).to_have_value("0.05")
-    expect(page.locator(".said")).to_contain_text("Red is desirable now")
+    expect(page.get_by_label("Learning", exact=True)).not_to_be_checked()
+    expect(page.locator(".said")).to_contain_text("Learning is off")
+
+
+def test_learning_is_switched_on_again_at_the_rate_of_before(visit):
+    page = visit("#explorer_rate-0p1_minute-1")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step === '3000'")
+    learns, rate = page.get_by_role("switch", name="Learning"), page.locator('[name="learning_rate"] + output')
+    expect(learns).to_be_checked()
+    learns.uncheck()
+    expect(rate).to_have_text("0")
+    expect(page.locator(".said")).not_to_contain_text("Learning is")  # of red creeps
+    press(page, "step")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step === '3001'")
+    learns.check()
+    expect(rate).to_have_text("0.1")
+    press(page, "play")
+    wait(page, "ended")
+    slow = replace(PLACES, learning=replace(PLACES.learning, learning_rate=0.1))
+    run = Run(slow, TANK, SIZE["seed"], 0)
+    reward = run.advance(3_000)
+    run.change(replace(slow, learning=replace(slow.learning, learning_rate=0.0)))
+    reward += run.advance(1)
+    run.change(slow)
+    assert float(shown(page, "score")) == reward + run.advance(8_999)
+
+
+def test_an_address_without_learning_says_so_and_that_of_a_turned_run_turns_it_again(visit):
+    page = visit("#explorer_rate-0_minute-0p1")
+    learns = page.get_by_role("switch", name="Learning")
+    expect(learns).not_to_be_checked()
+    learns.check()
+    page.wait_for_function("location.hash === '#explorer_agent-places_run-0'")
+    press(page, "red")
+    wait(page, "ended")
+    page.wait_for_function("location.hash === '#explorer_agent-places_start-red'")
+    press(page, "link")
+    expect(page.locator(".said")).to_contain_text("It makes red good again.")
+
+
+def test_an_agent_that_learns_contacts_has_no_switch_since_its_learning_does_not_stop(visit):
+    page = visit("#explorer_agent-foveated-cells-contacts-alone_start-red")
+    expect(page.get_by_role("switch", name="Learning")).to_have_count(0)
+    expect(page.locator(".said")).to_contain_text("First it learns for 50 minutes")
 
 
 def test_the_way_to_a_corner_is_shown_once_it_is_learned(visit):
@@ -221,7 +270,7 @@ def test_elements_go_with_their_agent_or_all_at_once(visit):
         drop_by_keyboard(page)
     press(page, "clear")
     expect(page.locator(".interest")).to_have_count(0)
-    expect(page.locator('[data-action="clear"]')).to_be_disabled()
+    expect(page.locator('[data-action="clear"]')).to_be_hidden()
 
 
 def test_the_address_follows_a_run_that_goes_on(visit):
@@ -276,7 +325,7 @@ def test_an_address_without_an_agent_is_one_of_the_agent_with_which_the_page_beg
     page = visit()
     page.locator('[name="preset"]').select_option("Arm of two links")
     page.evaluate("location.hash = '#explorer_start-red'")
-    expect(page.locator(".said")).to_contain_text("Red is desirable now")
+    expect(page.locator(".said")).to_contain_text("Red creeps are desirable now")
     expect(page.locator('[name="preset"]')).to_have_value("places")
 
 

@@ -160,7 +160,7 @@ def test_a_link_is_followed_by_the_explorer_of_its_notebook_and_a_further_view_s
         scroll_to_the_tank(page)
         expect(explorer_of(page)).to_have_attribute("data-state", "ended")
     explorer, run = explorer_of(page), Run(place_cells([3]), WaterWorld(n_creeps=8), run=2)
-    expect(explorer.locator("[data-action=link]")).to_be_hidden()
+    expect(explorer.locator("[data-action=link]")).to_have_js_property("hidden", True)
     page.locator(SCROLLED).evaluate("notebook => { notebook.scrollTop = 0; }")
     page.get_by_role("link", name="run 2").click()
     expect(explorer).to_have_attribute("data-step", "1500")
