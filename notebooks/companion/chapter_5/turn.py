@@ -15,7 +15,7 @@ class Turn(AnyWidget):
 
     _esm = text_of(*SCRIPTS, Path(__file__).with_name("turn.js"))
     _css = text_of("widget.css")
-    _engine = Explorer._engine
+    _engine = traitlets.Unicode(Explorer._engine.default_value).tag(sync=True)
     _wasm = traitlets.Dict().tag(sync=True)
     _layout = traitlets.Dict().tag(sync=True)
     _runs = traitlets.Dict().tag(sync=True)
