@@ -303,14 +303,14 @@ def _preset(name, agent, world, condition):
         "can_remember": learning.update_on == "cell",
         "valence_red": agent.desires[red[0]].valence if red else 0.0,
         "recursion": agent.desires[recurring[0]].valence if recurring else None,
-        "n_creeps": world.n_creeps if isinstance(world, WaterWorld) else None, "world": _world(world),
+        "n_creeps": world.n_creeps if isinstance(world, WaterWorld) else None, "world": world_in_page(world),
         "steps": condition.steps if condition else STEPS, "begins": _begins(agent, condition),
         "red": red, "avoided": agent.desires[red[0]].source if red else "", "recurring": recurring,
         "seed": condition.seed if condition else 0, "runs": result.runs if result else 0,
         "band": _band(result) if result else None, "totals": result.totals.tolist() if result else [],
-        "changes": [{"step": step, "parameters": _parameters(later, world)}
+        "changes": [{"step": step, "parameters": parameters_in_page(later, world)}
                     for step, later in (condition.changes if condition else ())],
-        "parameters": _parameters(agent, world)}
+        "parameters": parameters_in_page(agent, world)}
 
 
 def _begins(agent, condition):
@@ -319,7 +319,7 @@ def _begins(agent, condition):
     return LITTLE_HAPPENS if is_network and (condition.steps if condition else STEPS) > LITTLE_HAPPENS else 0
 
 
-def _world(world):
+def world_in_page(world):
     """A world in the page's format; of the rules of other worlds, only the scalars."""
     rules, module = _as_json(rules_of(world)), _module_of(world)
     name = NAMES[rules["world"]] if module == "plane" else "vessel"
@@ -344,7 +344,7 @@ def _without_ranges(modality):
                                                 each.boundaries) for each in modality.axes]
 
 
-def _parameters(agent, world):
+def parameters_in_page(agent, world):
     """The chosen parameters, ready for JSON, and the names that the page shows."""
     edges = [{"source": each.source if agent.comes_from_node(each) else "", "target": each.target, "of": list(each.of)}
              for each in agent.desires]

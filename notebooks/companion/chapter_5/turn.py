@@ -2,7 +2,8 @@
 
 from pathlib import Path
 
-from neorl.browser.explorer import AnyWidget, Explorer, text_of, traitlets
+from neorl.browser import wasm
+from neorl.browser.explorer import AnyWidget, Explorer, parameters_in_page, text_of, traitlets, world_in_page
 
 SCRIPTS = ("simulator.js", "drawing.js", "movers.js", "curve.js")
 
@@ -21,9 +22,12 @@ class Turn(AnyWidget):
     _runs = traitlets.Dict().tag(sync=True)
 
     def __init__(self, on, off):
-        explorer = Explorer({"on": on, "off": off})
-        used = {name: {"plane": getattr(explorer, name)["plane"]} for name in ("_wasm", "_layout")}
-        runs = {name: {part: explorer._presets[name][part]
-                       for part in ("parameters", "changes", "world", "seed", "steps")} for name in ("on", "off")}
-        super().__init__(_runs=runs, **used)
-        explorer.close()
+        super().__init__(_wasm={"plane": wasm.modules()["plane"]}, _layout={"plane": wasm.layout("plane")},
+                         _runs={"on": _run(on), "off": _run(off)})
+
+
+def _run(condition):
+    world, ((turn, later),) = condition.world, condition.changes
+    return {"world": world_in_page(world), "parameters": parameters_in_page(condition.agent, world),
+            "changes": [{"step": turn, "parameters": parameters_in_page(later, world)}],
+            "seed": condition.seed, "steps": condition.steps}
