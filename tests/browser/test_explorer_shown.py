@@ -182,7 +182,8 @@ def test_networks_begin_where_something_happens(visit, chosen):
 def test_few_buttons_are_in_sight_and_the_others_are_a_key_away(visit):
     page = visit()
     expect(page.locator(".board button:visible")).to_have_text([
-        "Play", "Make red good", "Reset", "Take the tour", "Newborn beside veteran", "Play against it", "Drop an element"])
+        "Play", "Make red good", "Reset", "Take the tour", "Newborn beside veteran", "Play against it",
+        "Drop an element"])
     page.locator("summary").press("Enter")
     expect(page.locator(".more .buttons button:visible")).to_have_text([
         "Step", "New run", "Watch it learn", "Show the way to a corner", "Copy link", "Save picture", "Save as CSV",
@@ -193,7 +194,7 @@ def test_few_buttons_are_in_sight_and_the_others_are_a_key_away(visit):
 def test_the_name_of_the_agent_is_shown_whole_in_a_column_of_the_book(open_page, tmp_path, conditions, screen, column):
     write_page(tmp_path, [Explorer({"Paper B, figure 5: place + object-vector cells": conditions["places"]})])
     page = open_page(tmp_path, "page.html", viewport={"width": screen, "height": 800})
-    page.evaluate("width => { document.body.style.cssText = `margin: 0; width: ${width}px; font: 16px sans-serif`; }", column)
+    page.evaluate("style => { document.body.style.cssText = style; }", f"width: {column}px; font: 16px sans-serif")
     wait(page, "running|ended")
     assert page.locator('[name="preset"]').evaluate("""menu => {
         const { font, paddingLeft, paddingRight } = getComputedStyle(menu);

@@ -179,3 +179,31 @@ def test_a_link_is_followed_by_the_explorer_of_its_notebook_and_a_further_view_s
     expect(explorer).to_have_attribute("data-step", "1500")
     open_notebook(page, NOTEBOOKS[0])
     expect(explorer).to_have_attribute("data-step", str(STEPS))
+
+
+def in_the_kernel(page, code):
+    """What code prints in the kernel of the current notebook."""
+    return page.evaluate("""async code => {
+        let printed = "";
+        const { kernel } = jupyterapp.shell.currentWidget.sessionContext.session;
+        const future = kernel.requestExecute({ code, store_history: false });
+        future.onIOPub = ({ header, content }) => { printed += header.msg_type === "stream" ? content.text : ""; };
+        await future.done;
+        return printed.trim();
+    }""", code)
+
+
+def test_python_follows_the_switch_for_learning_and_the_switch_python(page):
+    explorer = explorer_of(page)
+    rate = place_cells([3]).learning.learning_rate
+    explorer.locator("[data-action=red]").click()
+    expect(explorer.locator(".counts")).to_contain_text("now")
+    expect(explorer).to_have_attribute("data-state", "ended")
+    switch = explorer.get_by_role("switch", name="Learning")
+    expect(switch).not_to_be_checked()
+    assert in_the_kernel(page, "print(_.learning_rate, _.valence_red)") == "0.0 1.0"
+    switch.check()
+    page.wait_for_function("document.querySelector('.neorl-explorer [name=learning_rate]').value !== '-3'")
+    assert float(in_the_kernel(page, "print(_.agent.learning.learning_rate)")) == pytest.approx(rate)
+    in_the_kernel(page, "_.learning_rate = 0.0")
+    expect(switch).not_to_be_checked()
