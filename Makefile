@@ -1,4 +1,5 @@
-# make book   compute every notebook and build the book   RUNS=3 runs per condition; 10 give verdicts, 100 the papers' scale
+# make book   compute every notebook and build the book   RUNS=10 runs per condition, the fewest that give verdicts; 100 are
+#                                                         the papers' scale; by default each notebook's own, mostly 3
 #                                                         READING=letter for the reading of the thesis to the letter
 #                                                         JOBS=2 notebooks at a time, of up to 4 GB each
 # make test   run the tests                               WORKERS=4 processes, since tests of pages wait for a browser
@@ -21,7 +22,7 @@ PYTHON ?= python3
 WHEEL ?=
 SAMPLE ?= 20
 SEED ?=
-RUNS ?= 3
+RUNS ?=
 READING ?= calibrated
 STEPS ?=
 JOBS ?= 2
@@ -60,7 +61,7 @@ book: .venv/ready
 # Threads of linear algebra that wait for each other beside another notebook took fifty times as long as one thread.
 book test: export OPENBLAS_NUM_THREADS := 1
 $(CHAPTERS)/%.ipynb: notebooks/%.ipynb $(SOURCES) $(CHAPTERS)/.parameters
-	@$(BIN)/python book/computing/compute.py $< --runs $(RUNS) $(if $(STEPS),--steps $(STEPS)) --reading $(READING)
+	@$(BIN)/python book/computing/compute.py $< $(if $(RUNS),--runs $(RUNS)) $(if $(STEPS),--steps $(STEPS)) --reading $(READING)
 
 # One core builds the WebAssembly modules while the first page compiles the kernels for all others.
 $(CHAPTERS)/.modules: $(SOURCES)
@@ -74,7 +75,7 @@ $(call page,$(CONCLUSION)): $(call page,$(filter-out $(CONCLUSION),$(NAMES)))
 
 # Changes only if the parameters do.
 $(CHAPTERS)/.parameters: FORCE
-	@case "$(RUNS)-$(STEPS)" in *[!0-9-]*|0*|-*|*-0*) \
+	@case "$(RUNS)-$(STEPS)" in *[!0-9-]*|0*|*-0*) \
 	    echo "RUNS and STEPS must be integers of at least 1, but are '$(RUNS)' and '$(STEPS)'"; exit 1;; esac
 	@case "$(READING)" in calibrated|letter) ;; *) \
 	    echo "READING must be 'calibrated' or 'letter', but is '$(READING)'"; exit 1;; esac

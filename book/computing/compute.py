@@ -60,7 +60,8 @@ def compute(notebook, parameters):
     """
     began = time.time()
     parameters = of_notebook(notebook, parameters)
-    print(f"{notebook.name}: {', '.join(f'{name} {value}' for name, value in parameters.items())}", flush=True)
+    given = ", ".join(f"{name} {value}" for name, value in parameters.items()) or "its own parameters"
+    print(f"{notebook.name}: {given}", flush=True)
     work = CHAPTERS / f".{notebook.stem}"  # always the same place, so that the remains of a killed process are cleared
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)

@@ -58,12 +58,17 @@ def test_what_has_changed_is_computed_again_and_nothing_else(built):
     assert outdated(built) == [*small_book.NOTEBOOKS]
 
 
-@pytest.mark.parametrize("runs", ["0", "2.5", "many", ""])
+@pytest.mark.parametrize("runs", ["0", "2.5", "many"])
 def test_bad_runs_are_refused_before_anything_runs(tmp_path, runs):
     tree = small_book.make_tree(tmp_path / "tree")
     code, said = small_book.build(tree, runs)
     assert code != 0 and f"RUNS and STEPS must be integers of at least 1, but are '{runs}' and ''" in said
     assert not small_book.written(tree)
+
+
+def test_without_runs_a_notebook_has_its_own_number(built):
+    _, said = small_book.build(built, "", "--dry-run")
+    assert "compute.py notebooks/paper_a.ipynb" in said and "--runs" not in said
 
 
 def test_a_notebook_that_raises_is_named_and_the_last_book_stays(built):
