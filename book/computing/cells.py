@@ -2,7 +2,7 @@
 
 1. The parameters show the values used for the page, and the cell that papermill injects is left out.
 2. The caption of a figure is a Markdown cell below it, tagged as such, so that every reader of the notebook sees it;
-   the book shows it under the figure's number.
+   the book shows it under the figure's number, and answers its question by what is recorded on the claims it shows.
 3. A fold of code and output bears the title in its first line, a comment, which JupyterLab shows in its place.
 """
 
@@ -15,10 +15,11 @@ TITLED = {"hide-cell", "hide-output"}  # tags of folds that may have a title
 
 def of_page(cells, values):
     """The cells of a computed notebook as its page shows them. values: of its parameters, {name: value}."""
-    kept = []
+    kept, findings = [], findings_in(cells)
     for cell in cells:
         if CAPTION in tags(cell):
-            kept[-1].metadata["mystnb"]["figure"]["caption"] = caption_of(cell)
+            figure = kept[-1].metadata["mystnb"]["figure"]
+            figure["caption"] = answered(caption_of(cell), findings.get(figure["name"]))
         elif INJECTED not in tags(cell):
             kept.append(cell)
         if PARAMETERS in tags(cell):
@@ -32,6 +33,18 @@ def of_page(cells, values):
 def caption_of(cell):
     """The caption in a cell, in one line, without its label."""
     return " ".join(cell.source.removeprefix(LABEL).split("\n"))
+
+
+def findings_in(cells):
+    """What is recorded on the claims that figures show, {label of a figure: words}, as the answer of a page has it."""
+    outputs = (output.get("metadata", {}).get("text/html", {}) for cell in cells for output in cell.get("outputs", ()))
+    return next((each["findings"] for each in outputs if "findings" in each), {})
+
+
+def answered(caption, finding):
+    """A caption whose question, its first sentence, is followed by what was found, if anything was."""
+    question, mark, rest = caption.partition("? ")
+    return f"{question}{mark}Recorded: {finding}. {rest}" if finding and mark else caption
 
 
 def tags(cell):

@@ -3,6 +3,8 @@
 import re
 
 import pytest
+from computing import cells
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_output
 
 from companion.page import recorded, report
 from companion.thesis.statements import STATEMENTS, Bounds
@@ -76,6 +78,17 @@ def test_words_name_what_a_number_is_of():
     claim = {"here": [4.0, 3.5, 4.5], "numbers": {"a ratio, of all": [[4.0, 3.5, 4.5]], "over it, DQN, which sees": [[
         4.0, 3.5, 4.5]], "over it, PPO": [[1.5, 1.0, 2.0]]}}
     assert recorded.said(claim, "{where} {here}, PPO {of[over it, PPO]}") == "DQN 4, PPO 1.50"
+
+
+def test_a_caption_of_the_book_answers_its_question_by_the_record():
+    answer = new_code_cell(outputs=[new_output("display_data", {"text/html": ""},
+                                               metadata={"text/html": recorded.answer("paper_c")._repr_html_()[1]})])
+    figure = new_code_cell(metadata={"mystnb": {"figure": {"name": "fig-proficiency-networks"}}})
+    caption = new_markdown_cell("**Figure.** Does each help? Reward per second.", metadata={"tags": ["caption"]})
+    shown = cells.of_page([answer, figure, caption], {})[-1].metadata["mystnb"]["figure"]["caption"]
+    found = recorded.by_figure(RECORD)["fig-proficiency-networks"]
+    assert shown == f"Does each help? Recorded: {found}. Reward per second."
+    assert cells.answered("Drawn from its data.", "all") == "Drawn from its data."
 
 
 def test_claims_in_few_words_are_few():

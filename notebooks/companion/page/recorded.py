@@ -40,13 +40,13 @@ def shown(sentence, groups):
     record = report.record()
     note = NOTE + READINGS * any(name in record["letter"] for names in groups.values() for name in names)
     return HTML(f'<div class="recorded"><style>{STYLE.read_text("utf-8")}</style><p class="sentence">{sentence}</p>'
-                f'{figure(record, groups, CLAIMS_PAGE)}<p class="note">{note}</p></div>')
+                f'{figure(record, groups, CLAIMS_PAGE)}<p class="note">{note}</p></div>',
+                metadata={"findings": by_figure(record)})  # the book has them in its captions
 
 
 def sentence(record, names):
     """What was found on some claims in words, as far as they have some and are few, and how many are reproduced."""
-    found = [finding(record, name) for name in names] if len(names) <= MOST_IN_WORDS else []
-    words = "; ".join(filter(None, found)).replace("; and ", ", and ")
+    words = joined(filter(None, (finding(record, name) for name in names))) if len(names) <= MOST_IN_WORDS else ""
     if words and any(name in record["letter"] for name in names):
         words = f"calibrated, {words}"
     return " ".join(filter(None, [words and f"{words[0].upper()}{words[1:]}.", counted(record, names)]))
@@ -58,6 +58,19 @@ def finding(record, name):
     if not claim:
         return ""
     return said(claim, words if isinstance(words, str) else words.get(claim["verdict"], ""))
+
+
+def by_figure(record):
+    """What was found on the claims that figures show, {label of a figure: words}."""
+    found = {name: finding(record, name) for name in STATEMENTS}
+    labels = dict.fromkeys(STATEMENTS[name].figure for name, words in found.items() if words)
+    return {label: joined(words for name, words in found.items() if words and STATEMENTS[name].figure == label)
+            for label in labels}
+
+
+def joined(findings):
+    """Findings in words as one text."""
+    return "; ".join(findings).replace("; and ", ", and ").removeprefix("and ")
 
 
 def said(claim, words):
