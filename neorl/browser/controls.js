@@ -338,8 +338,10 @@ class Controls {
     const inWords = ({ hits }) => hits.map(({ kind, counts }) =>
       `${kind} ${shown((ratesOf(counts, span, 60).rates.at(-1) ?? 0).toFixed(1))}`).join(", ");
     const met = frames.map((each, tank) => `${second ? `${this.names()[tank]} ` : ""}${inWords(each)}`);
-    this.part(".of-catches").textContent = `${this.hasCreeps() ? "Caught" : "Met"} a minute: ${met.join(" · ")}`;
-    this.part(".counts").textContent = this.turnText();
+    const turned = this.turnText(); // counts of single minutes, beside which those of longer bins would confuse
+    this.part(".counts").textContent = turned;
+    this.part(".of-catches").textContent = turned ? "Caught a minute, by colour"
+      : `${this.hasCreeps() ? "Caught" : "Met"} a minute: ${met.join(" · ")}`;
     const wanted = new Set((frame?.wants ?? []).map(({ kind, valence }) => `${kind} ${signed(valence)}`));
     const dropped = this.elements.map(({ valence }) => `element ${signed(valence)}`);
     this.part(".wants").textContent = frame ? `Wants: ${[...wanted, ...dropped].join(", ")}` : "";

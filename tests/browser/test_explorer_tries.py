@@ -52,6 +52,7 @@ def test_red_becomes_good_in_the_middle_of_a_short_run_learning_stops_and_red_cr
             run.change(agent)
         reds.append(run.record(60 * TANK.fps * minutes).hits[:, TANK.kinds.index("red")].sum() / minutes)
     expect(page.locator(".counts")).to_have_text(f"Red a minute: {reds[0]:g}, then {reds[1]:g}, now {reds[2]:g}")
+    expect(page.locator(".of-catches")).to_have_text("Caught a minute, by colour")  # not over another time
     expect(page.locator('[name="valence_red"]')).to_have_value("1")
     expect(page.get_by_label("Learning", exact=True)).not_to_be_checked()
     expect(page.locator(".said")).to_contain_text("Learning is off")
