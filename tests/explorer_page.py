@@ -78,8 +78,12 @@ def press(page, action):
     """Press a button, and unfold the others before if it is one of them."""
     button = page.locator(f'.neorl-explorer [data-action="{action}"]').first
     if not button.is_visible():
-        page.locator(".neorl-explorer details").first.evaluate("folded => { folded.open = true; }")
+        unfold(page)
     button.click()
+
+
+def unfold(page):
+    page.locator(".neorl-explorer details").first.evaluate("folded => { folded.open = true; }")
 
 
 def drop_by_keyboard(page):
