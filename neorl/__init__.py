@@ -1,4 +1,4 @@
-"""neorl: agents that learn the way to everywhere, and go where they come to want.
+"""neorl: agents that learn the ways between the cells of their maps, and go where they come to want.
 
 The package builds, runs and compares agents that navigate by brain-like maps of space, after P. R. Leikanger,
 *Autonomous Navigation in (the Animal and) the Machine* (2022). As such an agent acts, it learns the way to each cell of
