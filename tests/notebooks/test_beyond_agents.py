@@ -77,7 +77,7 @@ def test_a_plan_of_one_capture_does_not_look_beyond():
 def test_gains_move_to_where_reward_is(page, monkeypatch):
     """Where the reward is the gain itself, the parameter rises; with a rate of 0 it stays."""
     monkeypatch.setattr(Run, "advance", lambda run, steps: run.agent.nodes[0].gain * steps / run.world.fps)
-    monkeypatch.setitem(page.adapt.__globals__, "steps", 40_000)
+    monkeypatch.setitem(page.adapt.__globals__, "steps", 80_000)
     gain = lambda octaves: multimodal(place_gain=octaves + 10)  # noqa: E731
     path, rewards = page.adapt(gain, (0.0,), 0.5, 0.5, 0)
     assert path.shape == (21, 1) and rewards.shape == (40,)

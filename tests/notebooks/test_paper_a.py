@@ -77,7 +77,7 @@ def test_the_page_speaks_of_the_thesis_s_level_where_it_is_drawn():
 def test_nothing_is_judged_on_another_board_and_variations_are_of_what_was_run():
     page = other_board()
     assert page.judged == [] and {each.world.n_creeps for each in page.ran} == {3}
-    assert set(page.varied) == set(page.variants) and len(page.variants) >= 8
+    assert set(page.varied) == set(page.variants) and len(page.variants) == 3  # of few runs
     for name, reading in page.variants.items():
         expected = conditions(reading, 1_000, 2, groups=("layers",))
         agents = {each.agent for key, each in expected.items() if key != ("brownian", 8)}
