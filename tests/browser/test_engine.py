@@ -10,7 +10,7 @@ import pytest
 
 from neorl import Arena, Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
 from neorl.browser import wasm
-from neorl.browser.explorer import OTHER_SPACES, _parameters, _world
+from neorl.browser.explorer import OTHER_SPACES, parameters_in_page, world_in_page
 from neorl.core.coordinates import sense
 from neorl.core.horde import as_vectors
 from neorl.kernels.annotations import mapped
@@ -133,8 +133,8 @@ def test_a_run_in_the_arena_is_that_of_python_to_the_last_bit(ask, maze):
     agent = replace(agent, desires=[replace(agent.desires[0], source=kind) for kind in maze.kinds])
     finer = replace(agent, nodes=[replace(agent.nodes[0], resolutions=[5, 6])])
     look = {"type": "look", "map": "PC N5", "goal": goal, "field": 9}
-    frame = ask(advance(STEPS), {"type": "change", "parameters": _parameters(finer, maze)}, advance(STEPS), look,
-                parameters=_parameters(agent, maze), world=_world(maze))[-1]
+    frame = ask(advance(STEPS), {"type": "change", "parameters": parameters_in_page(finer, maze)}, advance(STEPS), look,
+                parameters=parameters_in_page(agent, maze), world=world_in_page(maze))[-1]
     run = Run(agent, maze, SEED, K)
     reward = run.advance(STEPS)
     run.change(finer)
@@ -150,7 +150,7 @@ def test_a_run_in_the_arena_is_that_of_python_to_the_last_bit(ask, maze):
 
 def test_in_another_space_a_frame_shows_the_world_as_it_is(ask):
     for name, (agent, world) in OTHER_SPACES.items():
-        frame = ask(advance(STEPS), parameters=_parameters(agent, world), world=_world(world))[-1]
+        frame = ask(advance(STEPS), parameters=parameters_in_page(agent, world), world=world_in_page(world))[-1]
         run = Run(agent, world, SEED, K)
         assert frame["reward"] == run.advance(STEPS), name
         state, scene = run.world_state, run.world_state.scene
@@ -172,7 +172,7 @@ def test_a_radar_finds_a_place_by_its_bearing(ask):
     agent, world = OTHER_SPACES["Vessel with a radar"]
     places = [(0.1, 0.9), (0.55, 0.3), (0.9, 0.52)]
     found = ask(*({"type": "look", "map": "far N8", "goal": None, "at": {"x": x, "y": y}} for x, y in places),
-                advance(1), parameters=_parameters(agent, world), world=_world(world))[1:]
+                advance(1), parameters=parameters_in_page(agent, world), world=world_in_page(world))[1:]
     run = Run(agent, world, SEED, K)
     scene, (node, _) = run.world_state.scene, agent.nodes
     for place, frame in zip(places, found):
@@ -208,9 +208,10 @@ def learned(run, m, goal):
 def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
     agent, goal = network_d([4, 5], learning=Learning(memory=30.0)), 9
     maps = [f"{node.name} N{n}" for node in later.nodes for n in node.resolutions]
-    *_, frame, objects = ask(advance(STEPS), {"type": "change", "parameters": _parameters(later, TANK)}, advance(STEPS),
+    change = {"type": "change", "parameters": parameters_in_page(later, TANK)}
+    *_, frame, objects = ask(advance(STEPS), change, advance(STEPS),
                              *({"type": "look", "map": f"{node} N5", "goal": goal} for node in ("PC", "OVC")),
-                             parameters=_parameters(agent, TANK))
+                             parameters=parameters_in_page(agent, TANK))
     run = Run(agent, TANK, SEED, K)
     reward = run.advance(STEPS)
     run.change(later)
@@ -228,7 +229,7 @@ def test_a_second_agent_obeys_commands_on_the_same_creeps(ask, object_state):
     actions, each = np.random.default_rng(0).integers(0, 5, 300).tolist(), 5  # steps by an action
     frame = ask(advance(STEPS), *(request for action in actions
                                   for request in ({"type": "play", "action": action}, advance(each))),
-                last=1, parameters=_parameters(agent, TANK))[-1]
+                last=1, parameters=parameters_in_page(agent, TANK))[-1]
     run = Run(agent, TANK, SEED, K)
     run.advance(STEPS)
     second = run.world_state.scene._replace(position=np.full(2, 0.1 * TANK.width), velocity=np.zeros(2))

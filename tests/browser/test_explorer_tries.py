@@ -44,7 +44,6 @@ def wanting_red(agent, **learning):
 def test_red_becomes_good_in_the_middle_of_a_short_run_learning_stops_and_red_creeps_are_counted(visit):
     page = visit()
     press(page, "red")
-    expect(page.locator(".said")).to_contain_text("First it learns for 2 minutes")
     wait(page, "ended")
     run, reds = Run(PLACES, TANK, SIZE["seed"], 0), []
     for minutes, agent in ((2, PLACES), (1, wanting_red(PLACES, learning_rate=0.0)), (1, None)):

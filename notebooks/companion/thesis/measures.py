@@ -5,8 +5,7 @@
    or the smallest of several means has the widened intervals of all, since a bootstrapped maximum does not hold with
    95 %.
 2. A *time* is when the mean over runs crosses a level, once it is made monotone by isotonic regression. The first
-   window in which a noisy mean reaches a level comes too early. `book/computing/intervals.py` shows how often the
-   intervals hold.
+   window in which a noisy mean reaches a level comes too early.
 3. Rewards are per simulated second, *final* is the last fifth of a run.
 """
 
