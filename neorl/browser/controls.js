@@ -243,7 +243,7 @@ class Controls {
     this.part(".legend").replaceChildren(swatch("own"), own,
       ...(before ? [swatch("before"), `${before.name}: the one before`] : []),
       ...(this.beside ? [swatch("beside"), this.names()[1]] : []),
-      ...(band ? [swatch("band"), `where most of ${runs} runs of ${label} lie`] : []));
+      ...(band ? [swatch("band"), `where ${band.has_all ? "all" : "most"} of ${runs} runs of ${label} lie`] : []));
   }
 
   showControls() {

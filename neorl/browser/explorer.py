@@ -369,7 +369,8 @@ def _band(result):
     low, high = tolerance_band(rates)
     curves = {"edges": edges, "low": low, "middle": rates.mean(axis=0), "high": high}
     return {**{name: curve.round(4).tolist() for name, curve in curves.items()},
-            "steps_per_bin": each * bin_steps(result.world)}
+            "steps_per_bin": each * bin_steps(result.world),
+            "has_all": bool(np.array_equal([low, high], [rates.min(axis=0), rates.max(axis=0)]))}
 
 
 def _modalities():
