@@ -97,7 +97,7 @@ def test_the_band_holds_the_runs_and_ends_with_them(conditions):
     result = conditions["N3"]
     assert band["edges"][0] == 0 and band["edges"][-1] == pytest.approx(result.seconds)
     assert len(band["low"]) == len(band["edges"]) - 1 <= CURVE_BINS
-    assert band["edges"][1] == band["steps_per_bin"] / TANK.fps
+    assert band["edges"][1] == band["steps_per_bin"] / TANK.fps and band["has_all"]
     assert np.sum(band["middle"] * np.diff(band["edges"])) == pytest.approx(result.totals.mean(), abs=0.1)
     assert np.all(np.array(band["low"]) <= band["high"])
 
