@@ -7,6 +7,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
 
+from companion.page import recorded
 from companion.thesis.statements import CLAIMS, STATEMENTS
 
 HTML = Path(__file__).parent.parent / "_build" / "html"
@@ -96,11 +97,19 @@ def test_letters_of_figures_have_nine_pixels_on_a_phone():
         assert min(sizes, default=9) * pixels * min(1, column / width) >= 8.9, path.name
 
 
+@pytest.mark.parametrize("name", recorded.SHOWN)
+def test_what_is_recorded_stands_on_the_first_screen(open_page, name):
+    page = open_page(HTML, f"chapters/{name}.html", viewport={"width": 1200, "height": 800})
+    box = page.locator(".recorded .sentence").first.bounding_box()
+    assert box["y"] + box["height"] < 800
+
+
 @pytest.mark.parametrize("width", [400, 1200])
 def test_the_page_of_alternatives_shows_its_figure_soon_and_its_tables_whole(open_page, width):
     page = open_page(HTML, "chapters/alternatives.html")
     page.set_viewport_size({"width": width, "height": 800})
-    assert page.locator("#fig-alternatives-rewards").bounding_box()["y"] < 1_000
+    assert page.locator(".recorded .sentence").bounding_box()["y"] < 500
+    assert page.locator("#fig-alternatives-rewards").bounding_box()["y"] < 1_300
     tables = page.locator("article .pst-scrollable-table-container")
     assert tables.count() > 3
     assert not any(tables.evaluate_all("tables => tables.map(each => each.scrollWidth > each.clientWidth)"))
@@ -131,8 +140,8 @@ def test_links_from_the_source_of_a_module_to_its_documentation_lead_somewhere()
 
 def test_the_answer_has_a_row_for_each_claim_and_fits_on_a_phone(open_page):
     page = open_page(HTML, "claims.html")
-    rows = page.locator("table.answer tbody a")
-    assert sorted(row.split()[0] for row in rows.all_inner_texts()) == sorted(CLAIMS)
+    rows = page.locator("table.numbers tbody a")
+    assert sorted(rows.all_inner_texts()) == sorted(CLAIMS)
     page.set_viewport_size({"width": 400, "height": 800})
     assert page.evaluate("document.documentElement.scrollWidth") <= 400
     rows.first.click()

@@ -39,7 +39,8 @@ def shown(sentence, groups):
     """A sentence and the figure of some claims below it, as HTML for a notebook. groups: see `figure`."""
     record = report.record()
     note = NOTE + READINGS * any(name in record["letter"] for names in groups.values() for name in names)
-    return HTML(f'<div class="recorded"><style>{STYLE.read_text("utf-8")}</style><p class="sentence">{sentence}</p>'
+    words = f'<p class="sentence">{sentence}</p>' * bool(sentence)
+    return HTML(f'<div class="recorded"><style>{STYLE.read_text("utf-8")}</style>{words}'
                 f'{figure(record, groups, CLAIMS_PAGE)}<p class="note">{note}</p></div>',
                 metadata={"findings": by_figure(record)})  # the book has them in its captions
 
