@@ -59,7 +59,7 @@ class Star {
     this.wake();
   }
 
-  /** Let both agents want something else, and measure anew. */
+  /** Let both agents want something else, and begin to measure again. */
   change() {
     Object.assign(this.life, { isChanged: true, past: [] });
     this.root.dataset.seconds = 0;

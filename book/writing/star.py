@@ -15,7 +15,8 @@ from html import escape
 from pathlib import Path
 
 import neorl
-from neorl.browser.explorer import text_of
+from neorl.browser import wasm
+from neorl.browser.explorer import parameters_in_page, text_of, world_in_page
 
 AGENT, TANK = neorl.multimodal(), neorl.WaterWorld()
 SEED = 19  # the distances of both agents to the star, on the page and in the picture, are near the medians of 24 seeds
@@ -45,12 +46,11 @@ def experienced(place=START, lesson=LESSON):
 
 def page(lesson=LESSON):
     """The star's part of a page, as HTML: styles, a picture for readers without scripts, and all that runs it."""
-    explorer = neorl.Explorer({"star": neorl.Condition(AGENT, TANK, lesson, runs=1)})
-    preset, layout = explorer._presets["star"], explorer._layout["plane"]
-    data = {"_engine": explorer._engine, "_layout": {"plane": layout}, "lesson": lesson, "seed": SEED,
-            "valence": VALENCE, "star": dict(zip("xy", START)),
-            "wasm": b64encode(explorer._wasm["plane"]).decode(),
-            **{name: preset[name] for name in ("parameters", "world", "red")}}
+    data = {"_engine": neorl.Explorer._engine.default_value, "_layout": {"plane": wasm.layout("plane")},
+            "lesson": lesson, "seed": SEED, "valence": VALENCE, "star": dict(zip("xy", START)),
+            "wasm": b64encode(wasm.modules()["plane"]).decode(), "parameters": parameters_in_page(AGENT, TANK),
+            "world": world_in_page(TANK),
+            "red": [e for e, desire in enumerate(AGENT.desires) if desire.source == "red"]}
     content = b64encode(gzip.compress(json.dumps(data).encode(), mtime=0)).decode()
     script = "\n".join([text_of(*SCRIPTS), (BOOK / "star.js").read_text(encoding="utf-8")])
     markup = (BOOK / "star.html").read_text(encoding="utf-8").replace("{title}", escape(TITLE))

@@ -143,7 +143,7 @@ class Address extends Tour {
   }
 
   /** The address of the settings and the view, and of the present moment, unless the run was changed on the way by more
-   * than what is dropped there. That of a run in which red became desirable begins it anew. */
+   * than what is dropped there. A run in which red became desirable begins again. */
   addressOfNow(isMoment) {
     const { elements, life: { frame, changed, world, turn }, presets, model } = this;
     if (turn) return `${PREFIX}_agent-${slug(model.get("preset"))}_start-red`;

@@ -211,7 +211,7 @@ class Explorer extends Saving {
     return game ? 1 : frame && this.isReaching() ? SLOW : this.model.get("speed");
   }
 
-  /** The milliseconds of a request at full speed: a frame, with its field of arrows, takes as long as many steps. */
+  /** The milliseconds of a request at full speed: a whole run asks for few frames, each of which costs many steps. */
   budget() {
     return this.only ? WHOLE_BUDGET : FREE_BUDGET;
   }

@@ -2,9 +2,7 @@
 
 from html import escape
 
-from companion.page.marks import explained, html
 from companion.thesis.statements import STATEMENTS
-from companion.thesis.verdict import VERDICTS
 
 CLAIMS_PAGE = "../book/claims.md"  # from a notebook; the build makes it the built page
 
@@ -13,12 +11,6 @@ def box(*paragraphs):
     """A box of paragraphs, in Markdown; empty ones are left out."""
     # A blank line ends the HTML, so that the text between the two tags is parsed as Markdown.
     return "\n\n".join(['<div class="found">', *filter(None, paragraphs), "</div>"])
-
-
-def by_verdict(found):
-    """Claims with their verdicts, {name: verdict}, as "● A2, A7 reproduced; ◐ A3 partly"."""
-    return "; ".join(f"{html(verdict)}\u00a0{', '.join(link(name) for name in found if found[name] == verdict)} "
-                     f"{explained(verdict)}" for verdict in sorted({*found.values()}, key=VERDICTS.index))
 
 
 def link(name, page=CLAIMS_PAGE):

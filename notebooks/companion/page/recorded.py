@@ -63,10 +63,11 @@ def finding(record, name):
 
 def by_figure(record):
     """What was found on the claims that figures show, {label of a figure: words}."""
-    found = {name: finding(record, name) for name in STATEMENTS}
-    labels = dict.fromkeys(STATEMENTS[name].figure for name, words in found.items() if words)
-    return {label: joined(words for name, words in found.items() if words and STATEMENTS[name].figure == label)
-            for label in labels}
+    found = {}
+    for name, statement in STATEMENTS.items():
+        if words := finding(record, name):
+            found.setdefault(statement.figure, []).append(words)
+    return {label: joined(findings) for label, findings in found.items()}
 
 
 def joined(findings):
