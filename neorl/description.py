@@ -3,12 +3,13 @@
 - A frozen dataclass is a table of its fields, {field: value, …}. Where its place does not determine its type, as for a
   world, the table names it: {"is": "WaterWorld", …}. It may also name a function that makes an agent of the papers,
   with its arguments: {"is": "place_cells", "resolutions": [3, 7]}.
-- A kernel is {"kernel": "module:name"}, or, if a function has made it (`neorl.kernel_maker`),
+- A kernel is {"kernel": "module:name"}, or, if a function has made it (`neorl.custom.kernel_maker`),
   {"kernel": "module:name of the function", "of": arguments}.
 - A text in place of a table is the name of a modality, "place cell", or of a constant, "module:NAME".
 - A tuple is a list. None is left out where it is the default, since TOML cannot express it.
 
-A name without a module is one of `neorl`'s. A named module is imported, so a file can run code just as a program can.
+A name without a module is one that the package has given to `name_shortly`. A named module is imported, so a file can
+run code just as a program can.
 """
 
 import difflib
@@ -34,6 +35,7 @@ from neorl.core.modality import MODALITIES
 from neorl.kernels.identity import name_of
 
 SUFFIXES = (".toml", ".json")
+SHORT_NAMES: dict[str, Any] = {}  # what files name without a module
 MAIN = "__main__:"  # before the names of what the running program defines
 PLAIN = {bool: "true or false", int: "an integer", float: "a number", str: "a text", type(None): "None"}
 
@@ -105,6 +107,11 @@ class Described:
             return cls.from_dict(data)
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from error
+
+
+def name_shortly(*values):
+    """Let files name classes and functions without their modules."""
+    SHORT_NAMES.update((each.__name__, each) for each in values)
 
 
 def _suffix(path):
@@ -230,7 +237,7 @@ def _kernel(data, path):
     if "of" not in data:
         return found
     if not getattr(found, "makes_kernels", False):  # a file may name any function
-        raise checks.error(_at(path, "kernel"), "a neorl.kernel_maker, since of is given", data["kernel"])
+        raise checks.error(_at(path, "kernel"), "a neorl.custom.kernel_maker, since of is given", data["kernel"])
     try:
         return found(*restored(data["of"], object, _at(path, "of")))
     except (ValueError, TypeError) as error:
@@ -320,16 +327,15 @@ def _name(value, path):
                 return name
         except ValueError:
             continue
-    raise checks.error(path or "the value", "a kernel that a module defines or that a neorl.kernel_maker has made, or "
-                       "a class that a module defines, to be saved", value)
+    raise checks.error(path or "the value", "a kernel that a module defines or a neorl.custom.kernel_maker has made, "
+                       "or a class that a module defines, to be saved", value)
 
 
 def _found(name, path):
     """The object that a name refers to."""
     module, _, inner = str(name).rpartition(":")
     try:
-        return getattr(importlib.import_module(module or "neorl"), inner)
+        return getattr(importlib.import_module(module), inner) if module else SHORT_NAMES[inner]
     except Exception as error:  # importing a module may raise anything
-        hint = "" if module else _nearest(name, importlib.import_module("neorl").__all__)
-        raise checks.error(path, "a name of neorl, or 'module:name' of what can be imported", name,
-                           hint or str(error)) from error
+        hint = str(error) if module else _nearest(name, SHORT_NAMES)
+        raise checks.error(path, "a name of neorl, or 'module:name' of what can be imported", name, hint) from error

@@ -32,7 +32,8 @@ from typing import NamedTuple
 import numpy as np
 
 import helpers
-from neorl import CARDINAL, Agent, Axis, Modality, Node, Policy, Scene, World, kernel, kernel_maker
+from neorl import CARDINAL, Agent, Node, Policy, Scene, World, kernel
+from neorl.custom import Axis, Modality, kernel_maker
 from neorl.core.modality import PLACE_CELL
 from neorl.kernels.annotations import array
 from neorl.worlds.world import Dynamics

@@ -16,8 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl import (CARDINAL, Actions, Agent, Axis, Desire, Learner, Learning, Modality, Node, Policy, Run, Scene, World,
-                   forager, kernel, network_d, simulate)
+from neorl import (CARDINAL, Actions, Agent, Desire, Learner, Learning, Node, Policy, Run, Scene, World, forager,
+                   kernel, network_d, simulate)
+from neorl.custom import Axis, Modality
 from neorl.core.stream import randint
 from neorl.gym.environment import WorldEnv
 from neorl.gym.vector import VectorWorldEnv

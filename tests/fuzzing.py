@@ -28,7 +28,8 @@ import numpy as np
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from neorl import greedy, kernel
+from neorl import kernel
+from neorl.custom import greedy
 from neorl.kernels.kernel import Kernel
 
 SECONDS = 100 if numba.config.DISABLE_JIT else 900  # compiling is slow on a busy machine

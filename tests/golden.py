@@ -12,8 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from neorl import (Agent, Arena, Contacts, Desire, Learning, Node, Place, Policy, Run, WaterWorld, brownian, forager,
-                   multimodal, network_a, network_b, network_c, network_d, object_vector_cells, place_cells, softmax)
+from neorl import (Agent, Contacts, Desire, Learning, Node, Place, Policy, Run, WaterWorld, brownian, forager,
+                   multimodal, network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
+from neorl.custom import softmax
+from neorl.worlds import Arena
 from neorl.core import modality
 
 RECORD = Path(__file__).parent / "golden.json"

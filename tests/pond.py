@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from typing import NamedTuple
 
-from neorl import (CARDINAL, Agent, Condition, Desire, Dynamics, Node, Policy, Scene, World, array, kernel,
-                   kernel_maker, modality, simulate, sweep, uniform)
+from neorl import CARDINAL, Agent, Condition, Desire, Node, Policy, Scene, World, kernel, modality, simulate, sweep
+from neorl.custom import Dynamics, array, kernel_maker, uniform
 
 
 class PondState(NamedTuple):

@@ -11,10 +11,12 @@ from public_uses import (BOARD, CONDITION, MAZE, POOL, RESULT, SCENE, SCENES, VE
                          scene_then, seeds, shares, states, step_with, tile, tile_by, use_modality, want_it)
 
 import neorl
-from neorl import (CARDINAL, Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learner, Learning, Modality,
-                   Node, NresMap, Place, Policy, Result, Run, Scene, Vessel, WaterMaze, WaterWorld, greedy, softmax)
+from neorl import (CARDINAL, Actions, Agent, Condition, Contacts, Desire, Learner, Learning, Node, NresMap, Place,
+                   Policy, Result, Run, Scene, WaterWorld)
+from neorl.custom import Axis, Modality, greedy, softmax
+from neorl.worlds import Arena, Arm, Vessel, WaterMaze
 from neorl.agents import learner
-from neorl.agents.beyond import forager
+from neorl.agents.forager import forager
 from neorl.agents.individual import Individual
 from neorl.core import horde
 from neorl.core.coordinates import sense, tune
@@ -121,7 +123,7 @@ TABLE = {
         Contacts, horizon=st.floats(0.01, 9), learning_rate=shares, familiarity=st.floats(0, 99), first_value=shares,
         trace_rate=shares, caution=st.floats(0, 9), fear=["avoidance", "approach"], rivals=["highest", "add"],
         then=lambda contacts: live(forager([3, 5], contacts=contacts))),
-    "neorl.agents.beyond.forager": entry(
+    "neorl.agents.forager.forager": entry(
         forager, resolutions=[(3,), (3, 5)], valence_green=[1.0, "learned"], valence_red=[-1.0, "learned"],
         contacts=[Contacts()], then=live, also=("resolution", "valence", "modality")),
     "neorl.agents.rules.Policy": entry(

@@ -3,13 +3,13 @@
 import inspect
 
 import neorl
-from neorl.agents import agent, beyond, individual, learner, papers
+from neorl.agents import agent, forager, individual, learner, papers
 from neorl.core import coordinates, horde, maps, modality, policy, scene, stream
 from neorl.gym import environment, playing, vector
 from neorl.kernels import annotations, kernel
 from neorl.worlds import arena, arm, vessel, walls, water_maze, waterworld, world
 
-MODULES = (neorl, agent, annotations, beyond, coordinates, individual, learner, papers, horde, kernel, maps, modality,
+MODULES = (neorl, agent, annotations, forager, coordinates, individual, learner, papers, horde, kernel, maps, modality,
            policy, scene, stream, arena, arm, vessel, walls, water_maze, waterworld, world, environment, playing,
            vector)
 # Classes that only kernels or the package itself instantiate; kernels refuse to be called.
@@ -29,7 +29,7 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
     *(f"kernels.kernel.{name}" for name in (
         "Kernel.compiled_for", "check_kernel", "full_name", "function_of", "inlined", "inlined_kernel")),
     *(f"core.coordinates.{name}" for name in (
-        "as_radians", "as_turns", "check_faults", "choices_of", "space_of")),
+        "as_radians", "as_turns", "check_faults")),
     "core.modality.Modality.check_axes",
     "gym.vector.VectorWorldEnv.advance",
     "agents.papers.paper_agent", "kernels.execution.execute", "kernels.kernel.jit_is_off",

@@ -9,8 +9,9 @@ from same import numbers
 from hypothesis import strategies as st
 
 import neorl
-from neorl import (Agent, Arena, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap, Policy, Result,
-                   Run, Scene, Vessel, WaterMaze, WaterWorld)
+from neorl import Agent, Condition, Desire, Learner, Learning, Node, NresMap, Policy, Result, Run, Scene, WaterWorld
+from neorl.custom import Axis, Modality
+from neorl.worlds import Arena, Vessel, WaterMaze
 from neorl.core.coordinates import sense
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 from neorl.description import described, restored

@@ -24,7 +24,7 @@ def assert_equal(one, other):
 
 
 def assert_same(one, other):
-    """Assert that two runs are at the same step of the same life."""
+    """Assert that two runs are at the same step of the same run."""
     assert one.step == other.step
     assert_equal(one, other)
     assert_equal(one.world_state, other.world_state)
@@ -51,5 +51,5 @@ def alone(condition):
     """The result of a condition, run by run."""
     rewards, hits = new_bins(condition.world, condition.runs, condition.steps)
     for k in range(condition.runs):
-        simulation.live(condition, k, rewards[k], hits[k])
+        simulation.finished_run(condition, k, rewards[k], hits[k])
     return Result(condition, rewards, hits)

@@ -11,9 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from neorl import (Agent, Arena, Axis, Condition, Desire, Learning, Modality, Node, Place, Policy, WaterWorld, World,
-                   brownian, kernel, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
-                   place_cells, softmax)
+from neorl import (Agent, Condition, Desire, Learning, Node, Place, Policy, WaterWorld, World, brownian, kernel,
+                   multimodal, network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
+from neorl.custom import Axis, Modality, softmax
+from neorl.worlds import Arena
 from neorl.core.modality import HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, MODALITIES, PLACE_CELL
 from neorl.description import described, restored
 

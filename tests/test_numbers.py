@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 
 import neorl
-from neorl import (Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learning, Node, NresMap, Place,
-                   Policy, Result, Trajectory, Vessel, WaterMaze, WaterWorld)
+from neorl import (Actions, Agent, Condition, Contacts, Desire, Learning, Node, NresMap, Place, Policy, Result,
+                   WaterWorld)
+from neorl.custom import Axis
+from neorl.experiments.run import Trajectory
+from neorl.worlds import Arena, Arm, Vessel, WaterMaze
 from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL
 from neorl.kernels.identity import identity
 
@@ -83,7 +86,7 @@ def test_single_precision_is_another_number():
 
 def test_a_kernel_maker_tells_an_integer_from_the_same_number():
     """A kernel may use an integer as the length of a loop."""
-    @neorl.kernel_maker
+    @neorl.custom.kernel_maker
     def exact(number):
         def choose(value, stream):
             return number

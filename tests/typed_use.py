@@ -5,8 +5,11 @@ from typing import assert_type
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl import (Actions, Agent, Arena, Axis, Desire, Learner, Learning, Modality, Node, NresMap, Place, Policy, Run,
-                   WaterWorld, learn, multimodal, place_cells, softmax, superpose)
+from neorl import (Actions, Agent, Desire, Learner, Learning, Node, NresMap, Place, Policy, Run, WaterWorld,
+                   multimodal, place_cells)
+from neorl.core.horde import learn, superpose
+from neorl.custom import Axis, Modality, softmax
+from neorl.worlds import Arena
 from neorl.core.modality import cartesian, polar
 
 TILES = Modality("place cell", cartesian("position", (0, 1), (0.0, 1.0)))

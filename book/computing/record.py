@@ -58,7 +58,7 @@ def main():
         part = report.PART_OF[name]
         content[part] = content[part] | report.kept(of_reading(reading, RUNS[part]).values())
     at_50 = READINGS["calibrated"].varied(paper_a_fps=50)
-    content |= {"paper A at 50": report.kept(judge(lived(at_50, AT_50)).values()),
+    content |= {"paper A at 50": report.kept(judge(results_of(at_50, AT_50)).values()),
                 "commit": output("git", "rev-parse", "--short", "HEAD"), "date": f"{datetime.date.today()}"}
     if missing := [name for name in STATEMENTS if name not in content["claims"]]:
         sys.exit(f"every claim must be judged, but not {', '.join(missing)}: make book RUNS={OF_PAGES}, then {REMEDY}")
@@ -82,14 +82,14 @@ def built():
 
 def of_reading(reading, runs):
     """The claims about the papers' agents under a reading: {name: `Claim`}. runs: {group of conditions: number}."""
-    results = lived(reading, runs)
+    results = results_of(reading, runs)
     both, place = (replace(results[key].condition, runs=runs["revaluing"]) for key in ("both", ("place", "all")))
     results["moved"] = {"both": trials.distances(both).means, "place cells": trials.distances(place).means}
     stays = mean_stays(replace(place, runs=OF_PAGES))
     return judge(results) | {"T8": claims.judge_time_scale(PRIMES, stays.seconds, stays.without)}
 
 
-def lived(reading, runs):
+def results_of(reading, runs):
     """The results of a reading's conditions: {key: `Result`}, of each the most runs that a group asks for."""
     wanted = {}
     for group, number in sorted(runs.items(), key=lambda item: -item[1]):

@@ -17,7 +17,7 @@ from neorl.common.files import cache_folder, read_arrays
 from neorl.experiments import store
 from neorl.experiments.bins import new_bins
 from neorl.experiments.result import condition_of
-from neorl.experiments.simulation import live
+from neorl.experiments.simulation import finished_run
 
 
 def main():
@@ -89,7 +89,7 @@ def compare(condition, k):
 def recomputed(condition, k):
     """The rewards and hits in each bin of a run, computed alone: float32 (bins,) and int (bins, kinds)."""
     rewards, hits = new_bins(condition.world, 1, condition.steps)
-    live(condition, k, rewards[0], hits[0])
+    finished_run(condition, k, rewards[0], hits[0])
     return rewards[0], hits[0]
 
 

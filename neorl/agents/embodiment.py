@@ -9,13 +9,12 @@ import itertools
 import numpy as np
 
 from neorl.agents.agent import FIRST_WORTH, LEARNED, Place
-from neorl.beyond import contacts
 from neorl.common import checks
-from neorl.core import displacement, life
-from neorl.core.building import new_agent
+from neorl.core import contacts, displacement, loop
+from neorl.core.building import choices_of, new_agent
 from neorl.core.choices import Credit, MapState, Source, UpdateOn, Weighting
-from neorl.core.coordinates import as_turns, choices_of
-from neorl.core.functions import AgentFunctions, Life, UserFunctions, choice, features, no_credit
+from neorl.core.coordinates import as_turns
+from neorl.core.functions import AgentFunctions, Loop, UserFunctions, choice, features, no_credit
 from neorl.core.policy import greedy
 from neorl.worlds.former import check_present
 
@@ -32,8 +31,8 @@ def embodied(agent, world):
     return new_agent(choices_in(agent, world), world.things)
 
 
-def life_of(agent, whole=False):
-    """The `Life` of an agent: the kernels that it calls, and None for others unless it is to be whole."""
+def loop_of(agent, whole=False):
+    """The `Loop` of an agent: the kernels that it calls, and None for others unless it is to be whole."""
     credit, axes = agent.learning.credit, own_axes(agent)
     check_present(credit, agent.policy.choose, *axes)
     of_self = whole or any(node.state != "object" for node in agent.nodes)
@@ -43,7 +42,7 @@ def life_of(agent, whole=False):
                          choice(agent.policy.choose) if whole or agent.policy.choose is not greedy else None)
     functions = AgentFunctions(user, *(OF_SELF if of_self else [None] * len(OF_SELF)),
                                *(OF_CONTACTS if of_contacts else [None] * len(OF_CONTACTS)))
-    return Life(functions, life.begin, life.act, life.observe)
+    return Loop(functions, loop.begin, loop.act, loop.observe)
 
 
 def own_axes(agent):
@@ -140,7 +139,7 @@ def _contacts(agent, fps):
 
 
 def _frames(actions, name):
-    """The action that each action becomes in each mirror image, as `neorl.beyond.contacts.mirror` numbers them."""
+    """The action that each action becomes in each mirror image, as `neorl.core.contacts.mirror` numbers them."""
     frames = []
     exchanges = itertools.product(*(range(actions.axes - axis) for axis in reversed(range(actions.axes - 1))))
     for far, flips in itertools.product(exchanges, itertools.product((1, -1), repeat=actions.axes)):

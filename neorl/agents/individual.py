@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl.agents.agent import LEARNED, Agent
-from neorl.agents.embodiment import embodied, life_of, own_axes
+from neorl.agents.embodiment import embodied, loop_of, own_axes
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
 from neorl.common import checks
 from neorl.common.files import read_arrays, write_arrays
-from neorl.core import life
+from neorl.core import loop
 from neorl.core.building import TABLES, clear_q, n_values, with_values
 from neorl.core.coordinates import check_faults
 from neorl.core.horde import as_vectors
@@ -48,11 +48,11 @@ class Individual:
 
     in_words = "a Run or a Learner"  # in messages
 
-    def _live(self, agent, world, stream, after=None):
+    def _begin_untrained(self, agent, world, stream, after=None):
         """Begin as an untrained agent. after: a finished one, whose memory is reused if it is large enough."""
         self._agent, self._world, q = agent, world, None
         record, memory = embodied(agent, world)
-        if after is not None and after._has_room_for(record):
+        if after is not None and after._holds_values_of(record):
             execute(clear_q, after._record, after._memory)
             q = after._memory.q
         else:
@@ -60,7 +60,7 @@ class Individual:
         record["stream"] = stream
         self._record, self._memory = kept_apart(record), kept_apart(with_values(record, memory, q))
 
-    def _has_room_for(self, record):
+    def _holds_values_of(self, record):
         """Whether the values of the agent with this record fit into the memory of this one's."""
         return n_values(record) <= len(self._memory.q)
 
@@ -94,7 +94,7 @@ class Individual:
 
         float32 (cells, actions, cells), q[state, action, goal]; contiguous only if the agent bootstraps. If the state
         is the self, there is one: (1, actions, cells). For a node with contacts as goals (cells, actions, 3): approach,
-        fear, number of visits (see `neorl.beyond.contacts`).
+        fear, number of visits (see `neorl.core.contacts`).
 
         index: the map's position in `Agent.maps`. Raises ValueError if there is none.
         """
@@ -129,7 +129,7 @@ class Individual:
         fitting_runs(record)
         record["stream"] = self._record["stream"]
         record, memory = kept_apart(record), kept_apart(with_values(record, memory))
-        execute(life.begin, record, memory, self._scene, life_of(agent).functions)
+        execute(loop.begin, record, memory, self._scene, loop_of(agent).functions)
         old_maps = {key: m for m, key in enumerate(_map_keys(self.agent))}
         for m, key in enumerate(_map_keys(agent)):
             if key in old_maps:

@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from neorl.agents.agent import Agent
-from neorl.agents.embodiment import life_of
+from neorl.agents.embodiment import loop_of
 from neorl.agents.individual import Individual
 from neorl.agents.memory import kept_apart
 from neorl.common import checks
 from neorl.common.checks import LARGEST
-from neorl.core.functions import Life
+from neorl.core.functions import Loop
 from neorl.core.layout import Memory, Record
 from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
 from neorl.core.stream import new_stream
@@ -67,7 +67,7 @@ class Learner(Individual):
         seed = checks.integer("seed", seed, at_least=0)
         sizes = {"things": world.things, "axes": actions.axes}
         self._scene = kept_apart(new_tuple(Scene, sizes, {}))
-        self._live(agent, world, new_stream(np.random.SeedSequence(seed)))
+        self._begin_untrained(agent, world, new_stream(np.random.SeedSequence(seed)))
         self._progress = UNBORN
         self._bind()
 
@@ -77,7 +77,7 @@ class Learner(Individual):
 
     def _bind(self):
         self._offered = mapped(np.copy, self._scene)
-        here = Here(self._record, self._memory, self._scene, life_of(self.agent))
+        here = Here(self._record, self._memory, self._scene, loop_of(self.agent))
         self._calls = [bound(each, here) for each in (begin, act, observe)]
         self._accept = bound(accept, Offer(len(self.world.kinds), self._offered), self._scene)
         self._numbers = {None: ABSENT, **{name: number for number, name in enumerate(self.world.kinds)},
@@ -167,25 +167,25 @@ class Here(NamedTuple):
     agent: Record
     memory: Memory
     scene: Scene
-    life: Life
+    loop: Loop
 
 
 @kernel
 def begin(here: Here) -> None:
     """Begin at the scene."""
-    here.life.begin(here.agent, here.memory, here.scene, here.life.functions)
+    here.loop.begin(here.agent, here.memory, here.scene, here.loop.functions)
 
 
 @kernel
 def act(here: Here) -> int:
     """Choose an action."""
-    return here.life.act(here.agent, here.memory, here.scene, here.life.functions)
+    return here.loop.act(here.agent, here.memory, here.scene, here.loop.functions)
 
 
 @kernel
 def observe(here: Here) -> None:
     """Learn from the scene."""
-    here.life.observe(here.agent, here.memory, here.scene, here.life.functions)
+    here.loop.observe(here.agent, here.memory, here.scene, here.loop.functions)
 
 
 class Offer(NamedTuple):

@@ -76,7 +76,7 @@ AT_EVERY_STEP = {"credit": "share", "absent_decay": 0.0, "memory": 0.0, "bootstr
 
 @dataclass(frozen=True)
 class Contacts(checks.Final):
-    """How nodes with contacts as their only goals learn, see `neorl.beyond.contacts`: beyond the thesis.
+    """How nodes with contacts as their only goals learn, see `neorl.core.contacts`: beyond the thesis.
 
     The defaults are the best values found by `notebooks/companion/beyond_agents/search.py`.
 
@@ -114,8 +114,8 @@ class Policy(checks.Final):
         is: give 0 beside a policy that explores by itself, as in ``Policy(0.0, choose=softmax(0.2))``.
     when_indifferent: what to do while every action has a value of exactly 0: "random", that is to choose as usual, or
         "no-op", to be idle.
-    choose: a `neorl.kernel` (value, stream) → action: `neorl.greedy`, `neorl.softmax` of a temperature, or the user's
-        own; see `neorl.core.policy`. A number outside the range of actions counts as the nearest action.
+    choose: a `neorl.kernel` (value, stream) → action: `neorl.custom.greedy`, `neorl.custom.softmax` of a temperature,
+        or the user's own; see `neorl.core.policy`. A number outside the range of actions counts as the nearest action.
 
     Raises ValueError for anything else.
     """

@@ -20,15 +20,15 @@ from importlib import resources
 
 import numpy as np
 
-from neorl.agents import beyond, papers, spaces
+from neorl.agents import forager, papers, spaces
 from neorl.agents.agent import LEARNED, STATES, Agent, Desire, Node
-from neorl.agents.embodiment import choices_in, life_of
+from neorl.agents.embodiment import choices_in, loop_of
 from neorl.agents.rules import Learning, Policy
 from neorl.browser import wasm
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
 from neorl.common import checks
 from neorl.common.extras import require
-from neorl.core.coordinates import choices_of
+from neorl.core.building import choices_of
 from neorl.core.modality import MODALITIES, PLACE_CELL
 from neorl.experiments.bins import bin_steps
 from neorl.experiments.condition import Condition
@@ -45,7 +45,7 @@ from neorl.worlds.waterworld import WaterWorld
 AnyWidget = require("anywidget", extra="wasm").AnyWidget
 traitlets = require("traitlets", extra="wasm")
 
-START_HERE = {"Foveated cells, contacts alone": beyond.forager(valence_green=1.0, valence_red=-1.0),
+START_HERE = {"Foveated cells, contacts alone": forager.forager(valence_green=1.0, valence_red=-1.0),
               "Place and object-vector cells": papers.multimodal()}
 OF_THE_PAPERS = {  # with the defaults of the package
     "Place cells": papers.place_cells(), "Object-vector cells": papers.object_vector_cells(),
@@ -105,7 +105,7 @@ class Explorer(AnyWidget):
     drawn at full speed, beside the last run of another setting.
     Choosing a preset sets the traits that it determines. An agent that is not a condition is in the tank of the first
     condition in WaterWorld, or else in one with 3 creeps; an agent to the letter has the letter's steps per second and
-    contacts; agents in the arena are in `neorl.Arena()`, and agents of other spaces in their own worlds.
+    contacts; agents in the arena are in `neorl.worlds.Arena()`, and agents of other spaces in their own worlds.
     seconds and score follow the run, about once per second. All views of an Explorer share that run.
 
     Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
@@ -261,7 +261,7 @@ def _check_condition(name, condition):
         raise checks.error(f"world of condition {name}", "one of the package's, to be shown in the Explorer",
                            condition.world)
     for each in (agent, *(later for _, later in condition.changes)):
-        if life_of(each, whole=True) != wasm.MODULES[_module_of(condition.world)].life:
+        if loop_of(each, whole=True) != wasm.MODULES[_module_of(condition.world)].loop:
             raise ValueError(f"condition {name} must have the kernels that are compiled for the page, with the greedy "
                              "choice, but has its own, for an axis, the credit or the choice of an action")
 

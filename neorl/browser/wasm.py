@@ -30,27 +30,26 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agents.embodiment import life_of
+from neorl.agents.embodiment import loop_of
 from neorl.agents.individual import OF_A_MAP
 from neorl.agents.papers import brownian
 from neorl.agents.spaces import pilot
-from neorl.beyond import contacts
 from neorl.browser.seeding import start_stream
 from neorl.browser.worlds import PLANE
 from neorl.common import files
 from neorl.common.container import cores, free_memory
 from neorl.common.extras import require
 from neorl.common.warn import warn
-from neorl.core import derived, displacement, life
+from neorl.core import contacts, derived, displacement, loop
 from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
 from neorl.core.derived import begin_values, derive
-from neorl.core.functions import AgentFunctions, Life
+from neorl.core.functions import AgentFunctions, Loop
 from neorl.core.layout import CUT, TRACK, Memory, agent_type
 from neorl.experiments.condition import PARTS, source_digest
 from neorl.kernels.annotations import Record, fields, is_tuple
 from neorl.kernels.identity import can_cache, digest_of_source
 from neorl.worlds import arena, arm, vessel, water_maze, waterworld
-from neorl.worlds.probe import cell_seen_at, step_second, survey
+from neorl.browser.probe import cell_seen_at, step_second, survey
 from neorl.worlds.rollout import Log, rollout_in
 from neorl.worlds.vessel import Vessel
 from neorl.worlds.waterworld import WaterWorld, WaterWorldState
@@ -58,23 +57,23 @@ from neorl.worlds.world import Dynamics
 
 
 class Module(NamedTuple):
-    """The contents of a module: worlds, the `Life` of their agents, and the dtype of their records."""
+    """The contents of a module: worlds, the `Loop` of their agents, and the dtype of their records."""
 
     dynamics: Dynamics
-    life: Life
+    loop: Loop
     record: np.dtype
     exports: tuple
     tuples: tuple
 
 
 def _module(dynamics, agent, world, with_second):
-    exports = (start_stream, derive, begin_values, dynamics.reset, life.begin, rollout_in(dynamics), survey,
+    exports = (start_stream, derive, begin_values, dynamics.reset, loop.begin, rollout_in(dynamics), survey,
                cell_seen_at)
     tuples = Memory, fields(dynamics.reset)["state"], fields(dynamics.reset)["rules"], Log
     if with_second:
         exports, tuples = (*exports, step_second), (*tuples, WaterWorldState)
     record = agent_type(len(world.actions.names), world.actions.axes, ROWS)
-    return Module(dynamics, life_of(agent, whole=True), record, exports, tuples)
+    return Module(dynamics, loop_of(agent, whole=True), record, exports, tuples)
 
 
 ROWS = 512  # in the tables of an agent in a page
@@ -85,9 +84,9 @@ MODULES = {  # by the name under which a page requests it
 ENUMERATIONS = (Action, Cut, Feature, MapState, Source, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
 HOT = "rollout"  # the other exports are called at most once per picture
-RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, arm.reset, arm.draw_point, water_maze.reset,
+RARE = (loop.begin, waterworld.reset, waterworld.draw_creep, arena.reset, arm.reset, arm.draw_point, water_maze.reset,
         vessel.reset, vessel.draw_thing, derived.cut_axes, derived.list_desires, contacts.begin_contacts)
-EVERY_STEP = life.act, life.observe, displacement.observe_self
+EVERY_STEP = loop.act, loop.observe, displacement.observe_self
 # Optimised for speed, but not inlined.
 APART = (contacts.observe_contacts, contacts.evaluate_contacts, displacement.learn_displacement)
 SHIPPED = {name: resources.files(__package__) / f"{name}.wasm" for name in MODULES}  # in a wheel
@@ -213,7 +212,7 @@ def _described(field):
 def _passed(kernel):
     """The named tuple of a kernel's arguments, which the exported function takes as a table."""
     return NamedTuple(kernel.__name__, [(name, each) for name, each in kernel.__annotations__.items()
-                                      if each not in (AgentFunctions, Life) and name != "return"])
+                                      if each not in (AgentFunctions, Loop) and name != "return"])
 
 
 def _digest(name):
@@ -248,7 +247,7 @@ def _build(name):
     """Compile and link a module from the code that numba generates in this process."""
     import llvmlite.binding as llvm
 
-    _, life, record, exports, _ = MODULES[name]
+    _, loop, record, exports, _ = MODULES[name]
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
     for kernel in RARE + APART:
@@ -256,7 +255,7 @@ def _build(name):
     for kernel in EVERY_STEP:
         kernel.dispatcher.targetoptions["forceinline"] = True
     target = llvm.Target.from_triple(TRIPLE).create_target_machine(features="+simd128,+bulk-memory", opt=3)
-    together = _together({kernel.__name__: _code(kernel, life, record) for kernel in exports})
+    together = _together({kernel.__name__: _code(kernel, loop, record) for kernel in exports})
     passes = llvm.create_pass_builder(target, llvm.create_pipeline_tuning_options(speed_level=3))
     passes.getModulePassManager().run(together, passes)
     with tempfile.TemporaryDirectory() as folder:
@@ -294,9 +293,9 @@ def _mangled(kernel):
     return "".join(f"{len(each)}{each}" for each in f"{kernel.__module__}.{kernel.__name__}".split("."))
 
 
-def _code(kernel, life, record):
+def _code(kernel, loop, record):
     """The LLVM code of a kernel under its own name, with everything it calls."""
-    dispatcher = _entry(kernel, life, record)
+    dispatcher = _entry(kernel, loop, record)
     (compiled,) = dispatcher.overloads.values()
     code = compiled.library.get_llvm_str()
     # As text: llvmlite has no way to change the target and the linkage of code that it has parsed.
@@ -307,7 +306,7 @@ def _code(kernel, life, record):
     return code.replace(f"@{compiled.fndesc.llvm_func_name}(", f"@{kernel.__name__}(")
 
 
-def _entry(kernel, life, record):
+def _entry(kernel, loop, record):
     """The entry point of a kernel: a function of a table of its arguments. What it calls is compiled into it."""
     import numba
 
@@ -315,9 +314,9 @@ def _entry(kernel, life, record):
     from neorl.kernels.tables import SCALARS as TYPES
     from neorl.kernels.tables import View
 
-    taken = [name if each in (AgentFunctions, Life) else f"passed.{name}" for name, each in fields(kernel).items()
+    taken = [name if each in (AgentFunctions, Loop) else f"passed.{name}" for name, each in fields(kernel).items()
              if name != "return"]
-    scope = {"kernel": kernel, "life": life, "functions": life.functions}
+    scope = {"kernel": kernel, "loop": loop, "functions": loop.functions}
     entry = eval(f"lambda passed: kernel({', '.join(taken)})", scope)  # numba has no loop over fields of several types
     result = TYPES[kernel.__annotations__["return"]](View(_passed(kernel), record))
     return numba.njit(result, **options(no_cpython_wrapper=True, no_cfunc_wrapper=True))(entry)

@@ -1,4 +1,4 @@
-"""The agent as kernels see it: random streams, modalities, maps, the Horde, networks of nodes, and a life.
+"""The agent as kernels see it: random streams, modalities, maps, the Horde, networks of nodes, and the loop.
 
 Kernels take flat arrays and scalars (`neorl.kernels.kernel` has their rules); they compute every number of the book.
 """

@@ -4,15 +4,17 @@ They have a dict for each node, with its axes, and for each desire: rows of the 
 lengths in them become parts of one array, and the rows tell where each begins. ``engine.js`` does the same in a page.
 """
 
+import functools
 import math
 
 import numpy as np
 
+from neorl.core.choices import Cut, Feature, MapState, Vector
 from neorl.core.derived import begin_values, derive
 from neorl.core.layout import Memory, Record, agent_type, rows_for
 from neorl.core.learning import order_of, place_of, values_of
 from neorl.kernels.annotations import fields, length, new_tuple
-from neorl.kernels.execution import interpret
+from neorl.kernels.execution import in_table, interpret
 from neorl.kernels.kernel import kernel
 
 TABLES = ("nodes", "maps", "axes", "desires")
@@ -113,6 +115,36 @@ def with_places(rows, **names):
 def joined(dtype, lists):
     """Lists one after the other, in an array."""
     return np.array([value for values in lists for value in values], dtype)
+
+
+@functools.lru_cache(maxsize=64)
+def space_of(modality, resolution, n_axes=None, size=1.0):
+    """The record of an agent of a single map, and its memory as `execute` passes it on; kept for loops of points."""
+    n_axes, (node,) = n_axes or modality.least_axes, choices_of([modality])
+    agent, memory = new_agent({
+        "nodes": [node | {"resolutions": [resolution]}], "order": [0], "desires": [], "size": size,
+        "push": np.zeros((1, n_axes)), "frames": np.zeros((0, 1), np.int64)}, 0)
+    return agent, in_table(memory)
+
+
+def choices_of(modalities):
+    """The choices of all nodes that depend on their modalities, a list of dicts.
+
+    The others among them are those of `Node()`: a map never ends, and its state is the object.
+    """
+    own = [axis for modality in modalities for axis in modality.axes if callable(axis.of)]
+    return [{"follows": Vector[modality.follows], "mirrored": modality.mirrored, "state": MapState.object,
+             "ends": False, "reach": 0.0, "landmarks": modality.landmarks,
+             "axes": [_choices_of_axis(axis, own) for axis in modality.axes]} for modality in modalities]
+
+
+def _choices_of_axis(axis, own):
+    """The choices of an axis. own: the axes with user-defined kernels."""
+    cut = (Cut.boundaries if axis.boundaries else Cut.closed if axis.closed and not axis.is_direction else
+           Cut.centred if axis.centred else Cut.equal)
+    vector, along = (Vector.own, own.index(axis)) if callable(axis.of) else (Vector[axis.of], axis.along)
+    return {"vector": vector, "feature": Feature[axis.feature], "along": along, "cut": cut,
+            "intervals": axis.intervals or 0, "low": axis.low, "high": axis.high, "boundaries": axis.boundaries[1:-1]}
 
 
 @kernel

@@ -1,17 +1,15 @@
-"""The coordinates of points in the space of a modality, as the kernels compute them, and the choices that they take.
+"""The coordinates of points in the space of a modality, as the kernels compute them.
 
 For Python a direction is in radians, for the kernels in turns (`neorl.core.geometry`).
 """
 
-import functools
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from neorl.common import checks
-from neorl.core.building import new_agent
-from neorl.core.choices import Cut, Feature, MapState, Vector
+from neorl.core.building import space_of
 from neorl.core.direction import TAU
 from neorl.core.functions import UserFunctions, features
 from neorl.core.geometry import locate
@@ -19,7 +17,7 @@ from neorl.core.layout import Memory, Record
 from neorl.core.modality import Modality
 from neorl.core.scene import MOST_AXES, Scene, checked_scene
 from neorl.kernels.annotations import array, new_tuple
-from neorl.kernels.execution import execute, in_table
+from neorl.kernels.execution import execute
 from neorl.kernels.kernel import full_name, kernel
 
 
@@ -101,33 +99,3 @@ def as_turns(modality, points):
     points = np.array(points, float).reshape(-1, len(directions))
     points[:, directions] = points[:, directions] / TAU % 1.0
     return points
-
-
-@functools.lru_cache(maxsize=64)
-def space_of(modality, resolution, n_axes=None, size=1.0):
-    """The record of an agent of a single map, and its memory as `execute` passes it on; kept for loops of points."""
-    n_axes, (node,) = n_axes or modality.least_axes, choices_of([modality])
-    agent, memory = new_agent({
-        "nodes": [node | {"resolutions": [resolution]}], "order": [0], "desires": [], "size": size,
-        "push": np.zeros((1, n_axes)), "frames": np.zeros((0, 1), np.int64)}, 0)
-    return agent, in_table(memory)
-
-
-def choices_of(modalities):
-    """The choices of all nodes that depend on their modalities, a list of dicts.
-
-    The others among them are those of `Node()`: a map never ends, and its state is the object.
-    """
-    own = [axis for modality in modalities for axis in modality.axes if callable(axis.of)]
-    return [{"follows": Vector[modality.follows], "mirrored": modality.mirrored, "state": MapState.object,
-             "ends": False, "reach": 0.0, "landmarks": modality.landmarks,
-             "axes": [_choices_of_axis(axis, own) for axis in modality.axes]} for modality in modalities]
-
-
-def _choices_of_axis(axis, own):
-    """The choices of an axis. own: the axes with user-defined kernels."""
-    cut = (Cut.boundaries if axis.boundaries else Cut.closed if axis.closed and not axis.is_direction else
-           Cut.centred if axis.centred else Cut.equal)
-    vector, along = (Vector.own, own.index(axis)) if callable(axis.of) else (Vector[axis.of], axis.along)
-    return {"vector": vector, "feature": Feature[axis.feature], "along": along, "cut": cut,
-            "intervals": axis.intervals or 0, "low": axis.low, "high": axis.high, "boundaries": axis.boundaries[1:-1]}

@@ -1,4 +1,4 @@
-"""What the kernels of an agent call by address: the user's functions, the learners of other maps, the steps of a life.
+"""What the kernels of an agent call by address: the user's functions, the learners of other maps, its loop.
 
 So each is compiled once and by itself, for all agents with as many actions and axes in any world, and another policy
 compiles nothing but itself. A kernel that the agent does not need is None.
@@ -39,8 +39,8 @@ class AgentFunctions(NamedTuple):
 
 
 @tabled
-class Life(NamedTuple):
-    """The same, and the three kernels of `neorl.core.life`."""
+class Loop(NamedTuple):
+    """The same, and the three kernels of `neorl.core.loop`."""
 
     functions: AgentFunctions
     begin: function(Record, Memory, Scene, AgentFunctions, returns=None) = None

@@ -21,7 +21,7 @@ INT, REAL, SINGLE, FLAG = np.int64, np.float64, np.float32, np.bool_
 INDEX = np.uint64  # never negative: an index that might be would have to be tested
 FEWEST_ROWS, MORE = 32, 16
 OF_AXIS, OF_CREDIT = range(2)  # places in `faults`
-ENTRIES = 3  # values of an action in a cell of a map of contacts, see `neorl.beyond.contacts`
+ENTRIES = 3  # values of an action in a cell of a map of contacts, see `neorl.core.contacts`
 
 
 def rows_for(count):
@@ -46,7 +46,7 @@ NODE = record_of(
     ("gain", REAL),
     ("first_map", INDEX), ("end_map", INDEX), ("first_axis", INDEX), ("axes", INDEX),
     ("first_landmark", INT), ("landmarks", INT),
-    ("learns_contacts", FLAG),  # see `neorl.beyond.contacts`
+    ("learns_contacts", FLAG),  # see `neorl.core.contacts`
     ("mirrored", FLAG),
     # derived
     ("points", INT),  # number of points that it follows
@@ -64,7 +64,7 @@ MAP = record_of(
     ("weight", REAL),
     ("first_cut", INDEX), ("first_value", INT), ("end_value", INT), ("first_cell", INT), ("end_cell", INT),
     ("first_track", INT), ("end_track", INT),
-    ("first_trace", INT), ("end_trace", INT),  # its tracks' memory, which has room for all cells
+    ("first_trace", INT), ("end_trace", INT),  # its tracks' memory, which holds all cells
     ("passed", INT),  # the most places that a track of the self remembers
     ("first_passed", INT), ("end_passed", INT))  # its tracks' passed places
 AXIS = record_of(

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from neorl.common import checks
-from neorl.core.coordinates import as_turns, choices_of, space_of
+from neorl.core.building import choices_of, space_of
+from neorl.core.coordinates import as_turns
 from neorl.core.derived import intervals_along
 from neorl.core.geometry import cell_of, in_range
 from neorl.core.layout import Memory, Record

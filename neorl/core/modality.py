@@ -13,7 +13,7 @@ paper B, table 1):
 - *length*, and *direction*.
 
 A direction runs from east (0) by way of south, since y points down, and closes on itself. A vector of length 0 has no
-direction: by itself it counts as east, and in the life of an agent it keeps its last direction (see `neorl.core.life`).
+direction: by itself it counts as east, and in a run it keeps its last direction (see `neorl.core.loop`).
 
 Axes of several vectors make *conjunctive* cells, such as those of place and head direction: `PLACE_CELL.axes +
 HEAD_DIRECTION_CELL.axes`.
@@ -44,8 +44,8 @@ class Axis(checks.Final):
 
     of: "position", "velocity", "objects", "boundaries" (the nearest point of each side of the board) or "landmarks"; or
         a `neorl.kernel` ``(scene, point) → number`` that returns the coordinate, never NaN, given the
-        `neorl.core.scene.Scene` and the number of the thing, side or landmark; `neorl.walls` makes such kernels for
-        walls anywhere.
+        `neorl.core.scene.Scene` and the number of the thing, side or landmark; `neorl.worlds.walls` makes such kernels
+        for walls anywhere.
     feature: of that vector: "component", "foveated", "margin" (of a position), "length" or "direction" (in the plane of
         the first two axes of the world).
     along: for a component, foveated or not, or a margin, the axis of the world: 0 for x, 1 for y, and so on.

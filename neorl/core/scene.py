@@ -13,6 +13,7 @@ from neorl.kernels.annotations import array, tabled
 
 MOST_AXES, MOST_ACTIONS = 8, 1_024  # of a world; kernels are compiled for their numbers
 ABSENT = -1  # instead of the number of a kind
+HALF_SECOND = 0.5  # a velocity is shown at the place that the agent would reach in this time
 
 
 @tabled

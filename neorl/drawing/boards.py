@@ -15,7 +15,7 @@ from neorl.common import checks
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, axes_or_new, width_of_figures
 from neorl.worlds import waterworld
 from neorl.worlds.arena import Arena
-from neorl.worlds.probe import HALF_SECOND
+from neorl.core.scene import HALF_SECOND
 from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World
 
@@ -71,7 +71,7 @@ def draw_world(world: World, state: Any, ax: Axes | None = None) -> Axes:
 
     state: of that world. Raises ValueError if it is not.
 
-    >>> arena = neorl.Arena()
+    >>> arena = neorl.worlds.Arena()
     >>> axes = drawing.draw_world(arena, arena.reset(seed=0))
     """
     checks.instance("world", world, World).check_state(state)
@@ -90,11 +90,11 @@ def draw_world(world: World, state: Any, ax: Axes | None = None) -> Axes:
 
 
 def draw_walls(world: World, ax: Axes | None = None) -> Axes:
-    """Draw the walls and obstacles of a `neorl.Arena`, or the border of another world's board.
+    """Draw the walls and obstacles of a `neorl.worlds.Arena`, or the border of another world's board.
 
     world: a `neorl.World`. Raises ValueError for an `ax` that is not axes.
 
-    >>> axes = drawing.draw_walls(neorl.Arena(obstacles=[(0.4, 0.4, 0.6, 0.5)]))
+    >>> axes = drawing.draw_walls(neorl.worlds.Arena(obstacles=[(0.4, 0.4, 0.6, 0.5)]))
     """
     axes = board_or_new(ax)
     border: dict[str, Any] = {"fill": False, "edgecolor": INK, "linewidth": 1.4}

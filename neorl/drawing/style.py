@@ -96,8 +96,8 @@ def looks(count):
 def name_ends(axes, ends, line=0.075):
     """Write the names of curves beside their ends (height, name, colour), moved apart within the height of the axes.
 
-    line: the room that a name needs, as a share of the height of the axes; more in a low panel. Many names are written
-    in smaller letters to fit. Returns their heights, from the lowest end to the highest.
+    line: the height that a name needs, as a share of the height of the axes; more in a low panel. Many names are
+    written in smaller letters to fit. Returns their heights, from the lowest end to the highest.
     """
     scale = axes.yaxis.get_transform()  # names are spread on the page, so on a logarithmic axis by logarithms
     low, high = scale.transform(np.array(axes.get_ylim(), float))

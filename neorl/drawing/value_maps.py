@@ -34,7 +34,7 @@ class _Fields(NamedTuple):
 
     patches: list[Patch]
     middles: np.ndarray  # float64 (cells, 2)
-    breadth: np.ndarray  # float64 (cells, 1): room for an arrow
+    breadth: np.ndarray  # float64 (cells, 1): space for an arrow
     low: float  # where their board begins
 
 

@@ -14,7 +14,7 @@ from neorl.kernels.identity import digest_of_source, identity
 from neorl.worlds.world import World
 
 # Everything that takes part in a run.
-PARTS = ("common", "kernels", "core", "description", "worlds", "beyond", "agents", "experiments")
+PARTS = ("common", "kernels", "core", "description", "worlds", "agents", "experiments")
 
 
 @dataclass(frozen=True)

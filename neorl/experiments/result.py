@@ -5,7 +5,6 @@ world and everything else that determined it, as plain data (`neorl.description`
 (`neorl.worlds.former`), and the version of neorl.
 """
 
-import sys
 from dataclasses import dataclass, fields
 from operator import attrgetter
 from os import PathLike
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 from neorl.common import checks
 from neorl.common.extras import require
 from neorl.common.files import read_arrays, write_arrays
+from neorl.common.version import VERSION
 from neorl.common.warn import warn
 from neorl.description import described, restored, warn_of_main
 from neorl.experiments.bins import bin_steps, n_bins
@@ -139,7 +139,7 @@ def about(condition):
     Raises ValueError for an agent or a world that cannot be imported by name.
     """
     data = described(condition, Condition)
-    return {"neorl": sys.modules["neorl"].__version__, **data, "code": code_of(data, condition)}  # above this room
+    return {"neorl": VERSION, **data, "code": code_of(data, condition)}
 
 
 def condition_of(known):

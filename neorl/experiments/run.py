@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl.agents.agent import Agent
-from neorl.agents.embodiment import life_of
+from neorl.agents.embodiment import loop_of
 from neorl.agents.individual import Individual
 from neorl.agents.memory import kept_apart, on_lines_of_its_own
 from neorl.common import checks
-from neorl.core import life
+from neorl.core import loop
 from neorl.core.stream import new_stream
 from neorl.experiments.bins import bin_steps, checked_bins
 from neorl.kernels.annotations import arrays, new_tuple
@@ -76,10 +76,10 @@ class Run(Individual):
         if after is not None:
             checks.instance("after", after, Run)
         self._world_state = kept_apart(world.reset(sequence))
-        self._live(agent, world, new_stream(sequence.spawn(1)[0]), after)
+        self._begin_untrained(agent, world, new_stream(sequence.spawn(1)[0]), after)
         self._progress = 0
         self._bind()
-        execute(life.begin, self._record, self._memory, self._scene, life_of(agent).functions)
+        execute(loop.begin, self._record, self._memory, self._scene, loop_of(agent).functions)
 
     @classmethod
     def _of(cls, agent, world):
@@ -90,8 +90,8 @@ class Run(Individual):
         return self._world_state.scene
 
     def _bind(self):
-        self._life = [in_table(each, self._record.dtype) for each in (
-            self._record, self._memory, self._scene, life_of(self.agent))]
+        self._loop = [in_table(each, self._record.dtype) for each in (
+            self._record, self._memory, self._scene, loop_of(self.agent))]
 
     @property
     def world_state(self) -> Any:
@@ -187,7 +187,7 @@ class Run(Individual):
         """Take the steps up to `last`. Raises ValueError for a kernel of the user's that has broken a rule in them."""
         dynamics, log.clock[2] = self.world.dynamics, 0
         try:
-            execute(rollout_in(dynamics), *self._life, self._world_state, checked_rules(self.world), log, last)
+            execute(rollout_in(dynamics), *self._loop, self._world_state, checked_rules(self.world), log, last)
         finally:
             self._progress = int(log.clock[0])  # also if interrupted: Python handles that once the kernel returns
         check_outcome(self.world, dynamics.reset if log.clock[1] else dynamics.step, self._world_state, log.paid[0])

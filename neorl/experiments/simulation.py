@@ -94,7 +94,7 @@ def sweep(conditions: Iterable[Condition], executor: Executor | None = None,
         raise checks.error("conditions", "an iterable of Conditions, such as a list", conditions) from None
     conditions = checks.several("conditions", list(islice(each, checks.MOST + 1)))
     for condition in conditions:
-        _check_room(checks.instance("condition", condition, Condition))
+        _check_fits(checks.instance("condition", condition, Condition))
     if not hasattr(executor, "submit") and executor is not None:
         raise checks.error("executor", "an executor of concurrent.futures or None", executor)
     if threads is not None:
@@ -125,7 +125,7 @@ def sweep(conditions: Iterable[Condition], executor: Executor | None = None,
             for name, condition in zip(names, conditions))
 
 
-def _check_room(condition):
+def _check_fits(condition):
     """Raise MemoryError if the result of a condition does not fit into the free memory."""
     bins = n_bins(condition.world, condition.steps)
     usable_bytes(condition.runs * (BYTES_OF_A_RUN + bins * (4 + 2 * len(condition.world.kinds))),
@@ -153,23 +153,23 @@ def _run(tasks, executor, threads, cache, bar):
     """Compute tasks, and return the failed ones, [(task, exception), ...]."""
     if executor is not None:
         return _collect(tasks, lambda condition, runs: executor.submit(
-            _live_there, _pickled(condition), runs, condition.key), cache, lambda task: bar.update(task.steps))
+            _computed_there, _pickled(condition), runs, condition.key), cache, lambda task: bar.update(task.steps))
     conditions = {id(task.keeper): task.keeper.condition for task in tasks}.values()
-    lives = [(agent, each.world) for each in conditions
+    pairs = [(agent, each.world) for each in conditions
              for agent in (each.agent, *(later for _, later in each.changes))]
-    usable = usable_threads(*max(lives, key=lambda life: n_values(embodied(*life)[0])))
+    usable = usable_threads(*max(pairs, key=lambda pair: n_values(embodied(*pair)[0])))
     pool = ThreadPoolExecutor(usable if threads is None else min(usable, threads),
                               initializer=work_for, initargs=(users_frame(),))
-    stop, room = threading.Event(), threading.local()
+    stop, thread = threading.Event(), threading.local()
 
-    def each_slice(lived):
+    def each_slice(steps):
         if stop.is_set():
             raise CancelledError
-        bar.update(lived)
+        bar.update(steps)
 
     try:
         return _collect(tasks, lambda condition, runs: pool.submit(
-            _live, condition, runs, condition.key if cache else None, each_slice, room), cache)
+            _computed, condition, runs, condition.key if cache else None, each_slice, thread), cache)
     except BaseException:
         stop.set()
         raise
@@ -219,8 +219,8 @@ def _pickled(condition):
     return dumps(condition)
 
 
-def _live_there(pickled, runs, key):
-    """`_live` on a worker of an executor, for a pickled condition.
+def _computed_there(pickled, runs, key):
+    """`_computed` on a worker of an executor, for a pickled condition.
 
     As an argument, a condition that a worker cannot restore would end the worker or its connection, again and again.
     """
@@ -229,25 +229,25 @@ def _live_there(pickled, runs, key):
     except (AttributeError, ImportError) as error:
         raise RuntimeError("the kernels and worlds of a sweep must be in modules that its executor's workers can "
                            f"import, but are not: {error}; move them to a module, or leave out the executor") from error
-    return _live(condition, runs, key)
+    return _computed(condition, runs, key)
 
 
-def _live(condition, runs, key, each_slice=lambda lived: None, room=None):
+def _computed(condition, runs, key, each_slice=lambda steps: None, thread=None):
     """The work of one task: carry out runs of a condition, and return their rewards and hits.
 
     key: of the condition, where the caller computes it, or None if they are not cached. A worker with other code or
-    constants than the caller's is refused, since its results could differ. room: holds the thread's last run, whose
+    constants than the caller's is refused, since its results could differ. thread: holds the thread's last run, whose
     memory the next one reuses.
     """
     _check_key(condition, key)
     rewards, hits = new_bins(condition.world, len(runs), condition.steps)
-    run = vars(room).pop("run", None) if room else None
-    if run and not run._has_room_for(embodied(condition.agent, condition.world)[0]):
+    run = vars(thread).pop("run", None) if thread else None
+    if run and not run._holds_values_of(embodied(condition.agent, condition.world)[0]):
         run = None  # frees its memory before another run allocates
     for k, *into in zip(runs, rewards, hits):
-        run = live(condition, k, *into, each_slice, run)
-    if room:
-        room.run = run
+        run = finished_run(condition, k, *into, each_slice, run)
+    if thread:
+        thread.run = run
     _check_key(condition, key)
     return rewards, hits
 
@@ -258,7 +258,7 @@ def _check_key(condition, key):
                            "sweep that it works for, but has others; restart it, and change nothing while it runs")
 
 
-def live(condition, k, rewards, hits, each_slice=lambda lived: None, after=None):
+def finished_run(condition, k, rewards, hits, each_slice=lambda steps: None, after=None):
     """Carry out run k of a condition, and return it. Its rewards and hits are written into the arrays given.
 
     each_slice: called after every slice with its number of steps; an exception in it ends the run. after: see `Run`.

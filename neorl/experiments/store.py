@@ -53,7 +53,7 @@ def load_runs(condition, key=None):
 
 
 def save_runs(condition, runs, key=None):
-    """Write runs of a condition, as `load_runs` returns them. Raises OSError if there is no room or no permission."""
+    """Write runs of a condition, as `load_runs` returns them. Raises OSError if there is no space or no permission."""
     try:
         known = about(condition)
     except ValueError:  # its agent or world cannot be imported by name, but it was run, and is cached

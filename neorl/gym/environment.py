@@ -7,7 +7,7 @@
 **Rewards**: those of the world, unchanged.
 
 **Episodes**: for a neoRL agent the worlds of this package never end: the event that ends an episode, such as taking the
-last green creep, pays and resets the board, and life goes on. A *continuing* environment does the same: it never
+last green creep, pays and resets the board, and the run goes on. A *continuing* environment does the same: it never
 terminates, and is truncated only by a step limit. One that is not continuing terminates when an episode of the world
 is over, except that a trial in an arena that has run out of time is truncated. By default only WaterWorld is
 continuing, since to an agent that ignores what follows the end of an episode, the last green creep would be worth less

@@ -29,7 +29,7 @@ from neorl.common import files
 from neorl.common.warn import warn_once
 
 OURS = ("neorl.kernels.", "neorl.core.", "neorl.worlds.", "neorl.beyond.")
-ROOMS = ("kernels", "core", "worlds", "beyond", "agents", "gym", "browser")  # of this package that have kernels
+ROOMS = ("kernels", "core", "worlds", "agents", "gym", "browser")  # of this package that have kernels
 WITHOUT_SOURCE = ("numba", "numpy")
 PLAIN = (NoneType, bool, int, float, complex, str, bytes)
 CONSTANTS = (*PLAIN, tuple, np.ndarray, np.generic, Enum)  # among the attributes of a class

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.common.checks import LARGEST
-from neorl.core.functions import Life
+from neorl.core.functions import Loop
 from neorl.core.layout import Memory, Record
 from neorl.core.scene import ABSENT, Scene
 from neorl.kernels.annotations import array, fields, tabled
@@ -92,12 +92,12 @@ def keeps_rules(scene, n_kinds):
 
 
 @inlined_kernel
-def begun_again(agent, memory, scene, life, n_kinds):
+def begun_again(agent, memory, scene, loop, n_kinds):
     """Begin an episode in the scene that a reset has left; returns whether that keeps the rules."""
     if not keeps_rules(scene, n_kinds):
         return False
     if agent.notices_resets:
-        life.begin(agent, memory, scene, life.functions)
+        loop.begin(agent, memory, scene, loop.functions)
     return True
 
 
@@ -108,12 +108,12 @@ def rollout_in(dynamics):
     world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
 
     @kernel
-    def rollout(agent: Record, memory: Memory, scene: Scene, life: Life, world_state: world_type, rules: rules_type,
+    def rollout(agent: Record, memory: Memory, scene: Scene, loop: Loop, world_state: world_type, rules: rules_type,
                 log: Log, last_step: int) -> None:
         """Take the steps clock[0] … last_step − 1. A reward that broke a rule takes the place of paid[0]."""
         for now in range(log.clock[0], last_step):
             log.clock[0] = now + 1
-            action = life.act(agent, memory, scene, life.functions)
+            action = loop.act(agent, memory, scene, loop.functions)
             reward, done = step(world_state, rules, action)
             if not abs(reward) <= LARGEST:  # also if it is NaN
                 log.paid[0] = reward
@@ -124,7 +124,7 @@ def rollout_in(dynamics):
             if log.actions.shape[0] > 0:
                 record_frame(scene, log, now, action, reward)
             agent.reward = reward
-            life.observe(agent, memory, scene, life.functions)
+            loop.observe(agent, memory, scene, loop.functions)
             if not is_placed(scene):  # at once, since a later step may put the agent back
                 return
             if not count_hits(scene, log, now):
@@ -135,7 +135,7 @@ def rollout_in(dynamics):
                 log.clock[2] += 1
                 log.paid[1] = 0.0
                 reset(world_state, rules)
-                if not begun_again(agent, memory, scene, life, log.hits.shape[1]):
+                if not begun_again(agent, memory, scene, loop, log.hits.shape[1]):
                     log.clock[1] = 1
                     return
 

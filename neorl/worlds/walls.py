@@ -6,9 +6,9 @@
    from a position to the coordinate `after`. The whole way counts, so no wall is too thin to stop an agent. An agent
    may stand on the edge of a wall; walls that meet must overlap, or it can pass between them along the seam.
 3. The kernel ``contain(walls, x, y)`` returns whether a point is inside a wall.
-4. `distance` and `distance_along` make axes (`neorl.Axis`) on which cells sense walls: border cells fire at a distance
-   from the nearest wall, boundary-vector cells at a distance from the first wall in a direction (Solstad et al. 2008,
-   Lever et al. 2009). Cells sense only the walls in the list, which may include the sides of the world.
+4. `distance` and `distance_along` make axes (`neorl.custom.Axis`) on which cells sense walls: border cells fire at a
+   distance from the nearest wall, boundary-vector cells at a distance from the first wall in a direction (Solstad
+   et al. 2008, Lever et al. 2009). Cells sense only the walls in the list, which may include the sides of the world.
 """
 
 import math
@@ -73,7 +73,7 @@ def distance(walls: Sequence[Sequence[float]]) -> Any:
     walls: one or more, as in `table`. Raises ValueError for anything else.
 
     >>> corner = ((0.0, 0.0, 0.1, 1.0), (0.0, 0.0, 1.0, 0.1))
-    >>> border = neorl.Modality("border cell", [neorl.Axis(neorl.walls.distance(corner), high=0.5)])
+    >>> border = Modality("border cell", [Axis(walls.distance(corner), high=0.5)])
     """
     return _distance(_some(walls))
 
@@ -86,7 +86,7 @@ def distance_along(walls: Sequence[Sequence[float]], x: float, y: float) -> Any:
     walls: one or more, as in `table`. Raises ValueError for anything else.
 
     >>> corner = ((0.0, 0.0, 0.1, 1.0), (0.0, 0.0, 1.0, 0.1))
-    >>> axes = [neorl.Axis(neorl.walls.distance_along(corner, *push)) for push in ((-1, 0), (0, -1))]
+    >>> axes = [Axis(walls.distance_along(corner, *push)) for push in ((-1, 0), (0, -1))]
     """
     x, y = checks.real("x", x), checks.real("y", y)
     largest = checks.positive("the length of (x, y)", max(abs(x), abs(y)))

@@ -1,12 +1,12 @@
 """The interface of worlds, and how to write one.
 
-A world is one file, for which `neorl` has everything: ``from neorl import CARDINAL, Dynamics, Scene, World, array,
-kernel, randint, uniform, walls``. It is a frozen dataclass, whose fields users choose, with a `State`, rules, and two
-kernels:
+A world is one file, for which `neorl.custom` has everything: ``from neorl.custom import CARDINAL, Dynamics, Scene,
+World, array, kernel, randint, uniform, walls``. It is a frozen dataclass, whose fields users
+choose, with a `State`, rules, and two kernels:
 
 1. ``State``, a named tuple of arrays (`neorl.kernels.annotations.array`), holds everything that changes. It has a field
    ``scene``, the `neorl.core.scene.Scene` that agents perceive, and a field ``stream``, uint64 (4,), from which random
-   numbers are drawn (`neorl.uniform`, `neorl.randint`).
+   numbers are drawn (`neorl.custom.uniform`, `neorl.custom.randint`).
 2. ``rules``, a named tuple of numbers and arrays, holds everything that stays constant, as the kernels take it.
 3. ``reset(state, rules)`` starts an episode; ``step(state, rules, action)`` takes a step, and returns the reward and
    whether the episode is over. Both have annotated arguments. For each thing, a step sets ``scene.met`` to 0, or to 1 +
@@ -16,8 +16,8 @@ kernels:
    second; ``things`` is its number of things.
 
 `neorl.Run`, `neorl.simulate`, `neorl.sweep` and the cache accept it as it is. `notebooks/own_world.ipynb` has a small
-example, `neorl.worlds.arena` is a larger one. `neorl.heading` and `neorl.turn` stand in for cosine, sine and the
-arctangent.
+example, `neorl.worlds.arena` is a larger one. `neorl.custom.heading` and `neorl.custom.turn` stand in
+for cosine, sine and the arctangent.
 
 With ``NUMBA_DISABLE_JIT=1`` in the environment, the kernels are the Python functions that they were written as, with
 the same bits: `breakpoint` and `print` work in them, and an index out of range raises IndexError instead of crashing.
@@ -181,10 +181,11 @@ def check_definition(world):
                              f"with their types, but takes ({', '.join(takes)})")
     if (parts := fields(world.State)).get("scene") is not Scene or parts.get("stream") != STREAM:
         raise ValueError(f"the state of {name} must have a field scene, a neorl.Scene, and a field stream, "
-                         f"neorl.array('uint64', 4), but has {', '.join(parts)}")
+                         f"neorl.custom.array('uint64', 4), but has {', '.join(parts)}")
     for part, kind in parts.items():
         if not isinstance(kind, tuple) and not is_tuple(kind):
-            raise checks.error(f"{part} in the state of {name}", "annotated as a neorl.array or a named tuple", kind)
+            raise checks.error(f"{part} in the state of {name}", "annotated as a neorl.custom.array or a named tuple",
+                               kind)
 
 
 def checked_rules(world):

@@ -20,7 +20,8 @@ import math
 
 import numpy as np
 
-from neorl import Place, Scene, execute, turn
+from neorl import Place, Scene
+from neorl.custom import execute, turn
 
 ONE, ZERO, N, S, E, W, NO_OP = np.float32(1), np.float32(0), *range(5)
 

@@ -13,7 +13,8 @@ from companion.page.panels import FILL, mark
 from companion.page.wording import table
 from companion.page.thesis_figures import mark_levels
 from neorl.core.horde import as_vectors, superpose
-from neorl import CARDINAL, NresMap, Run, estimate
+from neorl import CARDINAL, NresMap, Run
+from neorl.statistics import estimate
 from neorl.drawing.curves import draw_sums
 from neorl.drawing.style import GREEN, INK, RED, looks
 from neorl.drawing.value_maps import draw_cells, draw_values

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from neorl import Agent, Contacts, Desire, Learner, Node, Scene, WaterWorld, forager
-from neorl.agents.beyond import FOVEATED_CELL
-from neorl.beyond.contacts import APPROACH, FEAR, VISITS
+from neorl.agents.forager import FOVEATED_CELL
+from neorl.core.contacts import APPROACH, FEAR, VISITS
 from neorl.core.scene import CARDINAL, Actions
 from neorl.experiments.run import Run
 
@@ -21,7 +21,7 @@ def image(vector, exchanged, sign_x, sign_y):
 
 
 class Restated:
-    """The maps of a node as dictionaries, by the rules in the docstring of `neorl.beyond.contacts`."""
+    """The maps of a node as dictionaries, by the rules in the docstring of `neorl.core.contacts`."""
 
     def __init__(self, contacts, resolutions, fps):
         self.contacts, self.resolutions = contacts, resolutions

@@ -11,8 +11,9 @@ from golden import every_modality, plain_rule
 from same import assert_equal, assert_same, newborn
 from saved_files import rewrite
 
-from neorl import (CARDINAL, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld,
-                   brownian, drawing, multimodal, network_d, object_vector_cells, place_cells, softmax)
+from neorl import (CARDINAL, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld, brownian,
+                   drawing, multimodal, network_d, object_vector_cells, place_cells)
+from neorl.custom import softmax
 from neorl.agents.agent import LEARNED
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 from neorl.kernels.annotations import arrays, mapped

@@ -10,8 +10,9 @@ from golden import plain_rule
 from same import digest
 from subprograms import printed
 
-from neorl import (CALIBRATED, Agent, Axis, Desire, Learner, Modality, Node, Place, Policy, Run, Scene, WaterWorld,
-                   kernel, multimodal, place_cells)
+from neorl import (CALIBRATED, Agent, Desire, Learner, Node, Place, Policy, Run, Scene, WaterWorld, kernel, multimodal,
+                   place_cells)
+from neorl.custom import Axis, Modality
 from neorl.core.coordinates import sense
 from neorl.core.stream import randint
 

@@ -79,7 +79,8 @@ def made(tmp_path, monkeypatch):
                         "RUNS": {"claims": few, "letter": few}, "AT_50": {"layers": 2}, "CONTROLS": 2, "OF_PAGES": 2,
                         "LENGTHS": {"B": 3_000}, "records": lambda: {"page": page}}.items():
         monkeypatch.setattr(record, name, value)
-    monkeypatch.setattr(record, "of_reading", lambda reading, runs: record.judge(record.lived(reading, {"layers": 2})))
+    monkeypatch.setattr(record, "of_reading",
+                        lambda reading, runs: record.judge(record.results_of(reading, {"layers": 2})))
 
     def made(changed="", **findings):
         page.write_text(json.dumps(FINDINGS | {"source": source_digest()} | findings))
@@ -119,7 +120,7 @@ def test_a_record_without_some_claim_is_refused(made):
 
 
 def test_a_group_that_asks_for_more_runs_decides_and_brownian_motion_has_its_own(made):
-    found = record.lived(record.READINGS["calibrated"], {"layers": 1, "single": 2})
+    found = record.results_of(record.READINGS["calibrated"], {"layers": 1, "single": 2})
     assert {key if isinstance(key, str) else key[0]: each.runs for key, each in found.items()} == {
         "brownian": 2, "single": 2, "layer": 1, "layers": 1}
     assert {each.seed for each in found.values()} == {record.SEED}

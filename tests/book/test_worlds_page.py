@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from neorl import Run, walls
+from neorl import Run
+from neorl.worlds import walls
 
 PAGE = Path(__file__).parents[2] / "book" / "api_worlds.md"
 EXAMPLES = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)

@@ -8,14 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from neorl import Arena, Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
+from neorl import Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
+from neorl.worlds import Arena
 from neorl.browser import wasm
 from neorl.browser.explorer import OTHER_SPACES, parameters_in_page, world_in_page
 from neorl.core.coordinates import sense
 from neorl.core.horde import as_vectors
 from neorl.kernels.annotations import mapped
 from neorl.kernels.execution import execute
-from neorl.worlds.probe import step_second, survey
+from neorl.browser.probe import step_second, survey
 
 ENGINE = """
 const ask = (worker, request) => new Promise((resolve, reject) => {
@@ -35,7 +36,7 @@ async function answers([requests, last]) {
   return JSON.parse(JSON.stringify(all.slice(-last), (_, value) => ArrayBuffer.isView(value) ? [...value] : value));
 }
 """
-CALLS = wasm.MODULES["plane"].life.functions
+CALLS = wasm.MODULES["plane"].loop.functions
 TANK = WaterWorld(n_creeps=4)
 AGENT = network_d([4, 5])
 STEPS, SEED, K = 3_000, 5, 2

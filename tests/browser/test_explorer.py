@@ -10,8 +10,9 @@ import pytest
 from traitlets import TraitError
 
 import neorl
-from neorl import (CALIBRATED, Agent, Arena, Condition, Desire, Explorer, Learning, Node, Policy, Vessel, WaterWorld,
-                   multimodal, network_d, object_vector_cells, place_cells, simulate)
+from neorl import (CALIBRATED, Agent, Condition, Desire, Explorer, Learning, Node, Policy, WaterWorld, multimodal,
+                   network_d, object_vector_cells, place_cells, simulate)
+from neorl.worlds import Arena, Vessel
 from neorl.agents.papers import OF_OBJECTS
 from neorl.agents.spaces import pilot
 from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OTHER_SPACES, STEPS

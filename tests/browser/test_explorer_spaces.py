@@ -6,7 +6,8 @@ import pytest
 from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, write_page
 from playwright.sync_api import expect
 
-from neorl import Arena, Desire, Explorer, Place, Run, WaterWorld, multimodal, simulate
+from neorl import Desire, Explorer, Place, Run, WaterWorld, multimodal, simulate
+from neorl.worlds import Arena
 from neorl.browser.explorer import IN_THE_ARENA, OTHER_SPACES, STEPS
 from neorl.core.modality import BOUNDARY_VECTOR_CELL
 

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from fuzzing import Unequal, Unprintable
 
-from neorl import (Actions, Agent, Axis, Desire, Learner, Learning, Modality, Node, NresMap, Scene, WaterWorld,
-                   kernel, kernel_maker, learn, object_vector_cells, place_cells, softmax)
+from neorl import (Actions, Agent, Desire, Learner, Learning, Node, NresMap, Scene, WaterWorld, kernel,
+                   object_vector_cells, place_cells)
+from neorl.core.horde import learn
+from neorl.custom import Axis, Modality, kernel_maker, softmax
 from neorl import statistics
 from neorl.common import checks
 from neorl.agents.embodiment import embodied

@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 
 import neorl
-from neorl import Policy, WaterWorld, gym, place_cells, simulate, softmax
+from neorl import Policy, WaterWorld, gym, place_cells, simulate
+from neorl.custom import softmax
 from neorl.browser import wasm
 from neorl.kernels.kernel import jit_is_off
 
@@ -26,7 +27,8 @@ if "homeless" in sys.argv:
     del os.environ["HOME"], os.environ["NEORL_CACHE"]
     from neorl.common import files
     files.CHECKOUT = files.Path()  # as if it were installed, not imported from a clone, which has a cache
-from neorl import WaterWorld, execute, heading, place_cells, simulate
+from neorl import WaterWorld, place_cells, simulate
+from neorl.custom import execute, heading
 from neorl.kernels.identity import digest_of_source
 turns = 0.1
 for _ in range(2):

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from neorl import learn, superpose
+from neorl.core.horde import learn, superpose
 
 shares = st.floats(0, 1, width=32)
 

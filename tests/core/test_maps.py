@@ -7,7 +7,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Place, Run, WaterWorld
+from neorl import Agent, Desire, Node, NresMap, Place, Run, WaterWorld
+from neorl.custom import Axis, Modality
 from neorl.core.coordinates import sense, tune
 from neorl.core.direction import TAU
 from neorl.core.modality import (HEAD_DIRECTION_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL,

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from neorl import Axis, Modality, NresMap, Scene, WaterWorld, kernel
+from neorl import NresMap, Scene, WaterWorld, kernel
+from neorl.custom import Axis, Modality
 from neorl.core.coordinates import sense, tune
 from neorl.core.direction import CIRCLE_TERMS, TAU, circle, heading, turn
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from neorl import greedy, softmax
+from neorl.custom import greedy, softmax
 from neorl.core.policy import exponential
 from neorl.core.stream import new_stream
 from neorl.kernels.execution import execute

@@ -6,7 +6,8 @@ from matplotlib.patches import Wedge
 from matplotlib.transforms import Affine2D
 
 from companion.paper_b.receptive_fields import draw_receptive_fields
-from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Place, Run, WaterWorld, drawing
+from neorl import Agent, Desire, Node, NresMap, Place, Run, WaterWorld, drawing
+from neorl.custom import Axis, Modality
 from neorl.core.coordinates import sense, tune
 from neorl.core.direction import TAU
 from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, polar

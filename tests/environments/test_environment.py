@@ -9,7 +9,8 @@ from gymnasium.utils.env_checker import check_env
 from pond import Pond
 from same import assert_equal
 
-from neorl import Agent, Arena, Run, Scene, WaterWorld, brownian, drawing
+from neorl import Agent, Run, Scene, WaterWorld, brownian, drawing
+from neorl.worlds import Arena
 from neorl.core.scene import ABSENT
 from neorl.drawing import AGENT
 from neorl.gym import WorldEnv

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 from same import assert_equal
 
-from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Desire, Learner, Learning, Modality, Node, Place, Policy, Run,
-                   Scene, WaterWorld, network_d, place_cells)
+from neorl import (CARDINAL, Actions, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld,
+                   network_d, place_cells)
+from neorl.custom import Axis, Modality
+from neorl.worlds import Arena
 from neorl.core.stream import new_stream
 from neorl.gym import WorldEnv, play
 

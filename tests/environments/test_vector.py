@@ -14,7 +14,8 @@ from gymnasium.wrappers import TimeLimit
 from pond import Pond
 from subprograms import printed
 
-from neorl import Arena, WaterWorld
+from neorl import WaterWorld
+from neorl.worlds import Arena
 from neorl.gym import VectorWorldEnv, WorldEnv
 
 WORLDS = {"tank": WaterWorld(width=60, n_creeps=2, win_reward=5.0), "pond": Pond(),

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from saved_files import rewrite
 
-from neorl import (Agent, Arena, Condition, Desire, Node, Result, WaterWorld, brownian, network_d, place_cells,
-                   simulate)
+from neorl import Agent, Condition, Desire, Node, Result, WaterWorld, brownian, network_d, place_cells, simulate
+from neorl.worlds import Arena
 from neorl.core.modality import PLACE_CELL
 from neorl.experiments.bins import new_bins
 

@@ -11,8 +11,8 @@ import psutil
 import pytest
 from same import assert_same
 
-from neorl import (Agent, Arena, Desire, Learning, Node, Policy, Run, WaterWorld, multimodal, network_d, place_cells,
-                   simulate)
+from neorl import Agent, Desire, Learning, Node, Policy, Run, WaterWorld, multimodal, network_d, place_cells, simulate
+from neorl.worlds import Arena
 from neorl.core.modality import PLACE_CELL
 
 TANK = WaterWorld(n_creeps=4)

@@ -24,8 +24,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import pays
-from neorl import (CARDINAL, Agent, Axis, Dynamics, Learning, Modality, Node, Policy, Scene, World, array, kernel,
-                   kernel_maker)
+from neorl import CARDINAL, Agent, Learning, Node, Policy, Scene, World, kernel
+from neorl.custom import Axis, Dynamics, Modality, array, kernel_maker
 
 class State(NamedTuple):
     scene: Scene

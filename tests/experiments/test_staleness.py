@@ -72,7 +72,7 @@ def test_a_worker_process_that_imports_an_edited_program_is_refused(tmp_path, mo
 
 def test_a_kernel_that_changes_while_it_runs_leaves_nothing_on_disk(cache_folder, monkeypatch):
     agent = place_cells([2], policy=Policy(choose=biased))
-    monkeypatch.setattr(simulation, "live", lambda *run: monkeypatch.setattr(sys.modules[__name__], "BIAS", 1))
+    monkeypatch.setattr(simulation, "finished_run", lambda *run: monkeypatch.setattr(sys.modules[__name__], "BIAS", 1))
     with pytest.raises(RuntimeError, match="change nothing while it runs"):
         simulate(agent, WaterWorld(), steps=1, runs=1, cache=True, progress=False)
     assert not list((cache_folder / "conditions").glob("*"))

@@ -14,7 +14,8 @@ import pytest
 from computing import verify
 from same import alone
 
-from neorl import Condition, Learning, Policy, WaterWorld, kernel, place_cells, simulate, softmax, sweep
+from neorl import Condition, Learning, Policy, WaterWorld, kernel, place_cells, simulate, sweep
+from neorl.custom import softmax
 from neorl.common import files
 from neorl.experiments import condition as conditions
 from neorl.experiments import simulation, store
@@ -34,8 +35,8 @@ def at_once(monkeypatch):
 @pytest.fixture
 def lived(monkeypatch):
     """The numbers of the runs that were computed."""
-    runs, original = [], simulation._live
-    monkeypatch.setattr(simulation, "_live", lambda *task: runs.extend(task[1]) or original(*task))
+    runs, original = [], simulation._computed
+    monkeypatch.setattr(simulation, "_computed", lambda *task: runs.extend(task[1]) or original(*task))
     return runs
 
 
@@ -167,7 +168,7 @@ def test_what_fits_neither_on_the_disk_nor_into_memory_is_an_error(tmp_path, mon
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "file"))
     with pytest.warns(RuntimeWarning, match="file takes no results"):
         assert_whole(once(SHORT), SHORT)
-    monkeypatch.setattr("neorl.experiments.simulation._check_room", lambda condition: None)  # it was free at first
+    monkeypatch.setattr("neorl.experiments.simulation._check_fits", lambda condition: None)  # it was free at first
     monkeypatch.setattr("psutil.virtual_memory", lambda: type("Memory", (), {"available": 10_000}))  # bytes
     with pytest.warns(RuntimeWarning, match="takes no"), pytest.raises(MemoryError, match="file takes no results, and"):
         once(replace(SHORT, steps=20_000))

@@ -32,8 +32,8 @@ pytestmark = pytest.mark.usefixtures("cache_folder")
 def lived(monkeypatch):
     """The tasks that workers in this process have computed: (condition, runs)."""
     tasks = []
-    original = simulation._live
-    monkeypatch.setattr(simulation, "_live", lambda *task: tasks.append(task[:2]) or original(*task))
+    original = simulation._computed
+    monkeypatch.setattr(simulation, "_computed", lambda *task: tasks.append(task[:2]) or original(*task))
     return tasks
 
 
@@ -73,7 +73,7 @@ def test_what_is_on_disk_or_asked_for_twice_is_computed_once(lived):
 
 def fails(monkeypatch, fails_now):
     """Make a task fail after its work is done, if `fails_now(condition, runs)`."""
-    original = simulation._live
+    original = simulation._computed
 
     def live(condition, runs, *others):
         brought = original(condition, runs, *others)
@@ -81,7 +81,7 @@ def fails(monkeypatch, fails_now):
             raise MemoryError("for now")
         return brought
 
-    monkeypatch.setattr(simulation, "_live", live)
+    monkeypatch.setattr(simulation, "_computed", live)
 
 
 def test_conditions_that_fail_are_reported_after_the_others_are_kept_and_run_alone_next_time(lived, monkeypatch):

@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 from numba.core.compiler import Flags
 
-from neorl import Policy, Run, WaterWorld, kernel, place_cells, softmax
+from neorl import Policy, Run, WaterWorld, kernel, place_cells
+from neorl.custom import softmax
 from neorl.common import files
 from neorl.core import stream
 from neorl.kernels import caching, compiling
@@ -26,7 +27,8 @@ pytestmark = pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
 LOADED = """
 import sys
 import numpy as np
-from neorl import WaterWorld, softmax
+from neorl import WaterWorld
+from neorl.custom import softmax
 from neorl.kernels.execution import execute
 
 value, stream = np.array([0.0, 1.0]), np.arange(4, dtype=np.uint64)

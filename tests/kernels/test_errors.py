@@ -12,7 +12,8 @@ import pytest
 from pond import Pond, PondRules, PondState
 from subprograms import printed
 
-from neorl import Agent, Axis, Modality, Node, Policy, Run, Scene, WaterWorld, kernel
+from neorl import Agent, Node, Policy, Run, Scene, WaterWorld, kernel
+from neorl.custom import Axis, Modality
 from neorl.core.coordinates import sense
 from neorl.core.modality import PLACE_CELL
 from neorl.kernels.execution import execute

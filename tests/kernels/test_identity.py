@@ -9,7 +9,8 @@ from types import ModuleType, SimpleNamespace
 import numpy as np
 import pytest
 
-from neorl import kernel, kernel_maker
+from neorl import kernel
+from neorl.custom import kernel_maker
 from neorl.kernels.execution import execute
 from neorl.kernels.identity import Reading, identity
 from neorl.kernels.kernel import jit_is_off

@@ -12,19 +12,21 @@ import numpy as np
 import pytest
 from numba.core import event
 
-from neorl import Agent, Arena, Learning, Node, Policy, Run, WaterWorld, network_d, place_cells, softmax
-from neorl.agents.embodiment import life_of
-from neorl.beyond import contacts
-from neorl.core import displacement, geometry, learning, life, maps, network, policy, stream
+from neorl import Agent, Learning, Node, Policy, Run, WaterWorld, network_d, place_cells
+from neorl.custom import softmax
+from neorl.worlds import Arena
+from neorl.agents.embodiment import loop_of
+from neorl.browser import probe
+from neorl.core import contacts, displacement, geometry, learning, loop, maps, network, policy, stream
 from neorl.core.modality import HEAD_DIRECTION_CELL, Axis, Modality
 from neorl.kernels import compiling
 from neorl.kernels.execution import execute
 from neorl.kernels.kernel import Kernel, inlined_kernel, kernel
-from neorl.worlds import arena, probe, waterworld
+from neorl.worlds import arena, waterworld
 from neorl.worlds.rollout import rollout_in
 
 TANK, POOL = WaterWorld(), Arena()
-MODULES = (arena, contacts, displacement, geometry, learning, life, maps, network, policy, probe, stream, waterworld)
+MODULES = (arena, contacts, displacement, geometry, learning, loop, maps, network, policy, probe, stream, waterworld)
 KERNELS = {f"{value.__module__}.{value.__name__}": value for module in MODULES
            for value in vars(module).values() if isinstance(value, Kernel)}
 MADE = {"rollout": rollout_in(TANK.dynamics), "softmax": softmax(0.5)}
@@ -44,7 +46,7 @@ def compiled():
 
 def test_the_kernels_are_found():
     assert {"neorl.core.learning.learn_all_goals", "neorl.core.stream.uniform", "neorl.worlds.waterworld.step",
-            "neorl.worlds.arena.step", "neorl.core.life.observe"} <= set(KERNELS)
+            "neorl.worlds.arena.step", "neorl.core.loop.observe"} <= set(KERNELS)
     assert MADE["rollout"].for_python.signatures
 
 
@@ -137,8 +139,8 @@ def test_an_array_that_kernels_would_misread_is_refused(dtype, order):
     run = Run(place_cells([3]), TANK)
     things = np.asarray(run.world_state.scene.things, dtype=dtype, order=order)
     with pytest.raises(ValueError, match="^things must be a contiguous array of float64 with 2 axes, but is "):
-        execute(life.begin, run._record, run._memory, run.world_state.scene._replace(things=things),
-                life_of(run.agent).functions)
+        execute(loop.begin, run._record, run._memory, run.world_state.scene._replace(things=things),
+                loop_of(run.agent).functions)
 
 
 @pytest.mark.parametrize("name", KERNELS)

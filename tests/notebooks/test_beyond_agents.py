@@ -7,7 +7,8 @@ from page_cells import executed
 from companion.alternatives.controllers import act_planner, planner
 from companion.alternatives.search import best_settings
 from companion.beyond_agents import figures, search
-from neorl import (NresMap, Run, WaterWorld, execute, forager, kernel, multimodal, simulate)
+from neorl import NresMap, Run, WaterWorld, forager, kernel, multimodal, simulate
+from neorl.custom import execute
 from neorl.core.choices import Action
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,8 @@ from scipy import stats
 
 from companion.thesis.measures import (evenness, learning_minutes, lead_over_sum, least, minutes_sooner,
                                        minutes_to_own_level, rank_correlation, share_of_lead, strength, widened)
-from neorl import Condition, Estimate, Result, WaterWorld, place_cells
+from neorl import Condition, Result, WaterWorld, place_cells
+from neorl.statistics import Estimate
 from neorl.statistics import difference, estimate, quotient
 
 

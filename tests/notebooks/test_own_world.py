@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from page_cells import code, executed
 
-from neorl import CARDINAL, execute
+from neorl import CARDINAL
+from neorl.custom import execute
 from neorl.core.stream import new_stream
 
 SHELL = """

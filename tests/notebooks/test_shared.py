@@ -12,7 +12,8 @@ from companion.thesis.pins import PINS
 from companion.thesis.priors import BEYOND
 from companion.page.thesis_figures import draw_against_thesis
 from companion.page.wording import number, scientific, table
-from neorl import WaterWorld, superpose
+from neorl import WaterWorld
+from neorl.core.horde import superpose
 from neorl.drawing.style import linear_light
 from companion.thesis.reading import Reading, changed
 from neorl.statistics import Estimate

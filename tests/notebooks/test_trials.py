@@ -6,6 +6,7 @@ import pytest
 import neorl
 from neorl import Condition, Learning
 from neorl.agents import papers
+from neorl.core.horde import superpose
 from companion.chapter_5 import trials as changes
 from companion.paper_b import trials
 from companion.thesis.reading import Reading
@@ -58,7 +59,7 @@ def test_values_are_those_of_goals_that_can_be_asked_for():
     for m, (node, n) in enumerate([("PC", 2), ("PC", 3), ("OVC", 2), ("OVC", 3)]):
         contact = int(run.agent.maps[m].encode([0, 0]))
         goals = range(n * n) if node == "PC" else [contact]
-        best = [neorl.superpose(run.q(m), state, [goal], [1.0]).max() for state in range(n * n) for goal in goals
+        best = [superpose(run.q(m), state, [goal], [1.0]).max() for state in range(n * n) for goal in goals
                 if state != goal]
         expected[node] += np.mean(best) * n / 5
     assert expected["OVC"] > 0

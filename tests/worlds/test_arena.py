@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from neorl import Arena
+from neorl.worlds import Arena
 
 RIM = {(0.5, 0.05), (0.5, 0.95), (0.05, 0.5), (0.95, 0.5)}
 FREE = {"places": (), "start": (0.5, 0.5), "trial_seconds": 1e6}

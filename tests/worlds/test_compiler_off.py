@@ -11,7 +11,8 @@ from same import digest, newborn
 from subprograms import printed
 from test_world import DRIVER, SEEKER, Dive, Roundabout
 
-from neorl import Agent, Arena, Arm, Desire, Node, Run, Vessel, WaterMaze
+from neorl import Agent, Desire, Node, Run
+from neorl.worlds import Arena, Arm, Vessel, WaterMaze
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 
 STEPS = 250

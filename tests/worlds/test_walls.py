@@ -5,7 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from neorl import Arena, Axis, Modality, Scene, execute, walls
+from neorl import Scene
+from neorl.custom import Axis, Modality, execute
+from neorl.worlds import Arena, walls
 from neorl.core.coordinates import sense
 from neorl.kernels.kernel import function_of
 

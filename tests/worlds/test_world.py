@@ -6,8 +6,9 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from neorl import (CARDINAL, Actions, Agent, Axis, Condition, Desire, Learning, Modality, Node, Place, Policy, Run,
-                   Scene, World, brownian, kernel, simulate)
+from neorl import (CARDINAL, Actions, Agent, Condition, Desire, Learning, Node, Place, Policy, Run, Scene, World,
+                   brownian, kernel, simulate)
+from neorl.custom import Axis, Modality
 from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian
 from neorl.core.stream import uniform
 from neorl.gym.vector import VectorWorldEnv

@@ -19,7 +19,7 @@ import numpy as np
 from companion.alternatives.living import Contestant, learn_nothing
 from companion.alternatives.tabular_learners import ACTIONS, nearest
 from neorl.core.choices import Action
-from neorl import ABSENT, array
+from neorl.custom import ABSENT, array
 from neorl.kernels.kernel import inlined_kernel, kernel
 from neorl.worlds.waterworld import GREEN, RED, WaterWorldState, step
 

@@ -22,7 +22,8 @@ from neorl.agents.embodiment import embodied
 from neorl.common.files import write_whole
 from neorl.core.building import n_bytes
 from neorl.core.stream import new_stream
-from neorl import Run, WaterWorld, execute
+from neorl import Run, WaterWorld
+from neorl.custom import execute
 from neorl.kernels.annotations import arrays
 from neorl.kernels.kernel import inlined, kernel
 from neorl.worlds import waterworld

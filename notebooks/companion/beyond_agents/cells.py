@@ -1,6 +1,6 @@
 """The cells of the forager, and of the simpler agents that it is compared with."""
 
-from neorl.agents.beyond import FASTEST
+from neorl.agents.forager import FASTEST
 from neorl.core.modality import Axis, Modality
 
 

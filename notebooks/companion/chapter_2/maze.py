@@ -25,12 +25,13 @@ import numpy as np
 
 from companion.shared.grid import MOVES
 from companion.shared.tabular import Rates, exploring_action, greedy_action, learn_q
-from neorl import ABSENT, Actions, Agent, Axis, Desire, Learning, Modality, Node, Policy, Scene, execute, kernel
-from neorl.agents.embodiment import embodied, life_of
+from neorl import Actions, Agent, Desire, Learning, Node, Policy, Scene, kernel
+from neorl.custom import ABSENT, Axis, Modality, execute
+from neorl.agents.embodiment import embodied, loop_of
 from neorl.agents.learner import Surroundings
 from neorl.common import checks
 from neorl.core.building import with_values
-from neorl.core.functions import Life
+from neorl.core.functions import Loop
 from neorl.core.layout import Memory
 from neorl.core.layout import Record as AgentRecord
 from neorl.core.stream import new_stream
@@ -194,7 +195,7 @@ def live(animal, maze, first_meal, stream):
         record["stream"], memory = stream, with_values(record, memory)
         scene = new_tuple(Scene, {"axes": 1, "things": 1}, {"things": np.array([[maze.goal + 0.5]]),
                                                             "kinds": np.array([ABSENT])})
-        day = live_a_day, record, memory, scene, life_of(agent)
+        day = live_a_day, record, memory, scene, loop_of(agent)
         worth = memory.q.reshape(maze.states, 4, maze.states)[:, :, maze.goal]
     else:
         rates = Rates(animal.learning_rate, animal.discount, animal.exploration)
@@ -254,17 +255,17 @@ def findings(groups, first_meal):
 
 
 @kernel
-def live_a_day(agent: AgentRecord, memory: Memory, scene: Scene, life: Life, next_state, goal, fed):
+def live_a_day(agent: AgentRecord, memory: Memory, scene: Scene, loop: Loop, next_state, goal, fed):
     """Run an agent through the maze once, and return its errors. fed: whether there is food."""
     place, errors = 0, 0
     scene.position[0] = 0.5
-    life.begin(agent, memory, scene, life.functions)
+    loop.begin(agent, memory, scene, loop.functions)
     for _ in range(LONGEST_TRIAL):
         place_tm1 = place
-        place = next_state[place_tm1, life.act(agent, memory, scene, life.functions)]
+        place = next_state[place_tm1, loop.act(agent, memory, scene, loop.functions)]
         errors += place > goal and place != place_tm1
         scene.position[0] = place + 0.5
-        life.observe(agent, memory, scene, life.functions)
+        loop.observe(agent, memory, scene, loop.functions)
         if place == goal:
             break
     if place == goal and fed:

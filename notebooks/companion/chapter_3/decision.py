@@ -22,7 +22,8 @@ import numpy as np
 from companion.shared.tabular import Rates, exploring_action, learn_q
 from neorl.common import checks
 from neorl.core.stream import new_stream, randint, uniform
-from neorl import execute, kernel
+from neorl import kernel
+from neorl.custom import execute
 
 RULES = {
     "sum": "the sum of the last L symbols modulo Ψ",

@@ -24,7 +24,8 @@ import numpy as np
 from companion.shared.runs import each_run
 from companion.shared.tabular import learn_q
 from neorl.core.stream import randint, new_stream, uniform
-from neorl import execute, kernel
+from neorl import kernel
+from neorl.custom import execute
 
 LEARNERS = ("Q-learning", "Sarsa", "actor–critic", "QV-learning", "ACLA")
 RULES = ("majority voting", "rank voting", "Boltzmann multiplication", "Boltzmann addition")

@@ -25,7 +25,8 @@ from companion.shared.grid import Grid
 from companion.shared.runs import each_run
 from companion.shared.tabular import Rates, exploring_action, learn_q
 from neorl.core.stream import randint, new_stream, uniform
-from neorl import execute, kernel
+from neorl import kernel
+from neorl.custom import execute
 
 KINDS = ("one learner", "heads", "latent heads")
 ENDS = ("all eaten", "caught", "out of time")

@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl import CALIBRATED, Learning, array, execute, kernel
+from neorl import CALIBRATED, Learning, kernel
+from neorl.custom import array, execute
 from neorl.core.choices import Credit
 from neorl.core.learning import UNIT, ZERO, MapValues, Order, Rule, learn_all_goals, learn_one_goal
 from neorl.core.stream import randint, new_stream, uniform

@@ -9,7 +9,9 @@ from dataclasses import replace
 import numpy as np
 
 from companion.shared.tabular import Rates
-from neorl import Arena, Arm, Axis, Condition, Desire, Modality, Node, Place, Policy, Vessel, WaterMaze
+from neorl import Condition, Desire, Node, Place, Policy
+from neorl.custom import Axis, Modality
+from neorl.worlds import Arena, Arm, Vessel, WaterMaze
 from neorl.agents.spaces import FAR_RADAR, pilot, reacher, seeker, swimmer
 from neorl.core.direction import TAU
 

@@ -13,7 +13,8 @@ import numpy as np
 
 from companion.shared.tabular import Rates, exploring_action, learn_q
 from neorl.core.stream import new_stream
-from neorl import Run, execute, kernel
+from neorl import Run, kernel
+from neorl.custom import execute
 from neorl.kernels.annotations import array, fields, mapped
 
 SIDE = 9  # cells along each side of the pool, as in the finer of the swimmer's maps

@@ -8,7 +8,7 @@ from neorl.core.coordinates import sense, tune
 from neorl.core.direction import TAU
 from neorl.drawing.boards import board_or_new
 from neorl.drawing.style import AGENT, INK
-from neorl.worlds.probe import HALF_SECOND
+from neorl.core.scene import HALF_SECOND
 
 RASTER = 121  # places along each side at which receptive fields are evaluated
 

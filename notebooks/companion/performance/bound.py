@@ -26,7 +26,8 @@ import numpy as np
 from companion.performance.timing import always
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream, randint
-from neorl import array, execute, kernel
+from neorl import kernel
+from neorl.custom import array, execute
 from neorl.worlds.waterworld import Rules, WaterWorldState, reset, step
 
 LINE = 64  # bytes, in which memory moves

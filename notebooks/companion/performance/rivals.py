@@ -15,7 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl import Learning, Run, array, execute, kernel, place_cells
+from neorl import Learning, Run, kernel, place_cells
+from neorl.custom import array, execute
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.worlds.waterworld import GREEN, WaterWorld
 

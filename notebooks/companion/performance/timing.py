@@ -11,7 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
-from neorl import Estimate, array, execute, kernel
+from neorl import kernel
+from neorl.custom import array, execute
+from neorl.statistics import Estimate
 
 SMALLEST, LARGEST = 2**14, 2**28  # bytes
 A_TIME = 2**25  # bytes moved in one measurement, at least

@@ -6,7 +6,8 @@ thesis eq. 3.5 and 4.6).
 
 from typing import NamedTuple
 
-from neorl import kernel, randint, uniform
+from neorl import kernel
+from neorl.custom import randint, uniform
 
 
 class Rates(NamedTuple):

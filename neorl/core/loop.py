@@ -1,4 +1,4 @@
-"""The life of an agent, step by step: choose, act, perceive, learn.
+"""The loop of an agent, step by step: choose, act, perceive, learn.
 
 1. Desires determine the values of the actions through the network of nodes; the policy chooses by these values.
 2. The action is an event in the active cell of every track until the track leaves that cell.
@@ -11,7 +11,7 @@
 6. Where the state of a node's maps is the self, one track follows the agent, and captures do not concern it; or the
    agent as seen from each thing has a track, which starts afresh when that thing is met. A transition is then that the
    agent leaves the centre of the map, see `neorl.core.displacement`.
-7. A node whose only goals are contacts learns by its own rules, see `neorl.beyond.contacts`.
+7. A node whose only goals are contacts learns by its own rules, see `neorl.core.contacts`.
 
 In `notebooks/companion/one_file.py`, this is the loop of `simulate`, `perceive` in section 4, and
 `learn_transition` in section 5. `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).

@@ -4,18 +4,18 @@ import numpy as np
 import pytest
 from same import assert_same
 
-from neorl import (Agent, Node, NresMap, Run, WaterWorld, multimodal, network_d, object_vector_cells, place_cells,
-                   superpose)
-from neorl.agents.embodiment import life_of
+from neorl import Agent, Node, NresMap, Run, WaterWorld, multimodal, network_d, object_vector_cells, place_cells
+from neorl.core.horde import superpose
+from neorl.agents.embodiment import loop_of
 from neorl.core.coordinates import sense, tune
 from neorl.core.modality import OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
 from neorl.kernels.annotations import mapped
 from neorl.kernels.execution import execute
-from neorl.worlds.probe import cell_seen_at, step_second, survey
+from neorl.browser.probe import cell_seen_at, step_second, survey
 from neorl.worlds.waterworld import GREEN, RED
 
 TANK = WaterWorld(n_creeps=5)
-CALLS = life_of(place_cells(), whole=True).functions
+CALLS = loop_of(place_cells(), whole=True).functions
 
 
 def surveyed(run, side):

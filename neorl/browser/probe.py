@@ -1,17 +1,15 @@
 """Kernels for viewers: probe the values of an agent anywhere, and add a second player to WaterWorld."""
 
-from neorl.core import life
+from neorl.core import loop
 from neorl.core.choices import MapState, Vector
 from neorl.core.functions import AgentFunctions
 from neorl.core.geometry import cell_within, locate
 from neorl.core.layout import Memory, Record
 from neorl.core.network import evaluate
-from neorl.core.scene import Scene
+from neorl.core.scene import HALF_SECOND, Scene
 from neorl.kernels.annotations import array
 from neorl.kernels.kernel import kernel
 from neorl.worlds.waterworld import Rules, WaterWorldState, move_agent, reset, touch_creeps
-
-HALF_SECOND = 0.5  # a velocity is shown at the place that the agent would reach in this time
 
 
 @kernel
@@ -24,7 +22,7 @@ def survey(agent: Record, double: Record, memory: Memory, there: Scene, function
     for tile in range(side * side):
         there.position[0] = (tile % side + 0.5) / side * agent.size
         there.position[1] = (tile // side + 0.5) / side * agent.size
-        life.begin(double, memory, there, functions)
+        loop.begin(double, memory, there, functions)
         for e in range(agent.n_desires):  # recursion uses the agent's own of the previous step
             double.desires[e].total_valence = agent.desires[e].total_valence
             double.desires[e].worth = agent.desires[e].worth
@@ -69,9 +67,9 @@ def step_second(agent: Record, memory: Memory, scene: Scene, functions: AgentFun
         if agent.nodes[n].follows == Vector.objects and agent.nodes[n].state != MapState.self:
             for creep in range(second.met.shape[0]):
                 if second.met[creep] != 0:
-                    life.begin_point(agent, memory, scene, functions, n, creep)
+                    loop.begin_point(agent, memory, scene, functions, n, creep)
     if done:
         reset(board, rules)
         if agent.notices_resets:
-            life.begin(agent, memory, scene, functions)
+            loop.begin(agent, memory, scene, functions)
     return reward
