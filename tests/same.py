@@ -12,8 +12,8 @@ from neorl.kernels.annotations import arrays
 
 
 def numbers(values):
-    """The arrays of numbers in a `Learner` or `Run`, or in a named tuple, by name."""
-    return arrays(values._record) | arrays(values._memory) if isinstance(values, Learner | Run) else arrays(values)
+    """The arrays of the state of a `Learner` or `Run`, or in a named tuple, by name."""
+    return values._state() if isinstance(values, Learner | Run) else arrays(values)
 
 
 def assert_equal(one, other):

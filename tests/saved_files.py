@@ -5,6 +5,7 @@ import json
 import numpy as np
 
 from neorl.common import files
+from neorl.common.array_files import write_arrays
 
 
 def share_compiled(folder):
@@ -17,11 +18,15 @@ def share_compiled(folder):
         (folder / name).symlink_to(cache / name)
 
 
-def rewrite(path, forge):
-    """Rewrite an npz file after forge(about, kept) has changed its metadata, or its arrays {name: array}."""
+def contents(path):
+    """The metadata of a file, and its arrays {name: array}."""
     with np.load(path) as file:
-        kept = {name: file[name] for name in file.files}
-    about = json.loads(str(kept.pop("about")))
-    forge(about, kept)
-    with path.open("wb") as file:
-        np.savez(file, about=np.array(json.dumps(about)), **kept)
+        arrays = {name: file[name] for name in file.files if name != "digest"}
+    return json.loads(str(arrays.pop("about"))), arrays
+
+
+def rewrite(path, forge, into=None):
+    """Write a file again, with its digest, after forge(about, arrays) has changed its content."""
+    about, arrays = contents(path)
+    forge(about, arrays)
+    write_arrays(into or path, about.pop("is", "nothing"), about, arrays)

@@ -13,7 +13,8 @@ import time
 
 import numpy as np
 
-from neorl.common.files import cache_folder, read_arrays
+from neorl.common.array_files import open_arrays
+from neorl.common.files import cache_folder
 from neorl.experiments import store
 from neorl.experiments.bins import new_bins
 from neorl.experiments.result import condition_of
@@ -65,7 +66,8 @@ def conditions_kept():
         key = each.path.name.partition("-")[0]
         if each.kind == "runs" and key not in found:
             try:
-                condition = condition_of(read_arrays(each.path, "runs")[0])
+                with open_arrays(each.path, "runs") as file:
+                    condition = condition_of(file.about)
             except (OSError, ValueError):  # damaged, of another version, or with a kernel that no module defines
                 continue
             if condition.key == key and store.load(condition):  # else a source or a kernel has changed

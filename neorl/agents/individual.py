@@ -1,7 +1,7 @@
 """An agent in a world, with everything it has learned: the base of `neorl.Learner` and `neorl.Run`.
 
-Parameters, state and values are read-only views. A saved file holds every array, the agent and its world as plain data
-(`neorl.description`), the digests of the user's code in them (`neorl.worlds.former`), and one that reveals damage.
+Parameters, state and values are read-only views. A saved file holds the state (`neorl.agents.keeping`), the agent and
+its world as plain data (`neorl.description`), and the digests of the user's code in them (`neorl.worlds.former`).
 """
 
 from os import PathLike
@@ -11,24 +11,23 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl.agents.agent import LEARNED, Agent
+from neorl.agents import keeping
+from neorl.agents.agent import Agent
 from neorl.agents.embodiment import embodied, loop_of, own_axes
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
 from neorl.common import checks
-from neorl.common.files import read_arrays, write_arrays
+from neorl.common.alone import Alone
+from neorl.common.array_files import open_arrays, write_arrays
 from neorl.core import loop
 from neorl.core.building import TABLES, clear_q, n_values, with_values
 from neorl.core.coordinates import check_faults
 from neorl.core.horde import as_vectors
-from neorl.core.layout import ENTRIES, Memory
+from neorl.core.layout import Memory
 from neorl.description import described, restored, warn_of_main
 from neorl.kernels.annotations import arrays, mapped
 from neorl.kernels.execution import execute
 from neorl.worlds.former import changes, code_of
 
-# The arrays of `Memory` that have a part for each map, by what the part begins and ends with.
-OF_A_MAP = {"cell": ("goal_range",), "track": ("tracks", "events"), "passed": ("passed_at", "passed_rates"),
-            "trace": ("remembered", "remembered_at", "strength", "trace_weight", "trace_worth")}
 
 
 class Output(NamedTuple):
@@ -47,10 +46,11 @@ class Individual:
     """
 
     in_words = "a Run or a Learner"  # in messages
+    _remedy = "use a copy()"  # instead of a call within a call
 
     def _begin_untrained(self, agent, world, stream, after=None):
         """Begin as an untrained agent. after: a finished one, whose memory is reused if it is large enough."""
-        self._agent, self._world, q = agent, world, None
+        self._agent, self._world, self._alone, q = agent, world, Alone(self._remedy), None
         record, memory = embodied(agent, world)
         if after is not None and after._holds_values_of(record):
             execute(clear_q, after._record, after._memory)
@@ -99,7 +99,7 @@ class Individual:
         index: the map's position in `Agent.maps`. Raises ValueError if there is none.
         """
         index = checks.integer("index", index, at_least=0, at_most=len(self.agent.maps) - 1)
-        return read_only(_values_of(self.agent, self._record, self._memory, index))
+        return read_only(keeping.values_of(self.agent, self._record, self._memory, index))
 
     def output(self, name: str) -> Output:
         """The `Output` of the node called `name`. Raises ValueError if there is none."""
@@ -119,47 +119,44 @@ class Individual:
     def change(self, agent: Agent) -> None:
         """Continue as another agent, which keeps what this one has learned.
 
-        A map keeps its values, its active cells and its memory of how they were reached if both agents have it, in a
-        node of the same name with the same states and goals; a desire that both have keeps its learned valence.
-        Everything else is reset, including the desires of the previous step.
-        Raises ValueError unless it is an `Agent` compatible with the world, MemoryError if its values do not fit into
-        the free memory.
+        A map keeps its values if both agents have it, in a node of the same name with the same states and goals; also
+        its active cells and its memory of how they were reached if both remember alike. A desire that both have, for
+        the same node, keeps what it was at the previous step. The worth of a kind of thing that was learned is known to
+        all desires that learn it. Everything else begins afresh. So a change to the same agent changes nothing.
+
+        Raises ValueError unless it is an `Agent` compatible with the world, and for a kernel of an axis that returns
+        NaN; MemoryError if its values do not fit into the free memory, RuntimeError while another thread advances it.
         """
-        record, memory = embodied(checks.instance("agent", agent, Agent), self.world)
+        checks.instance("agent", agent, Agent)
+        self._alone.check("change", called_back=True)
+        record, memory = embodied(agent, self.world)
         fitting_runs(record)
-        record["stream"] = self._record["stream"]
         record, memory = kept_apart(record), kept_apart(with_values(record, memory))
-        execute(loop.begin, record, memory, self._scene, loop_of(agent).functions)
-        old_maps = {key: m for m, key in enumerate(_map_keys(self.agent))}
-        for m, key in enumerate(_map_keys(agent)):
-            if key in old_maps:
-                _keep_map(self._record, self._memory, old_maps[key], record, memory, m)
-                _values_of(agent, record, memory, m)[...] = _values_of(self.agent, self._record, self._memory,
-                                                                       old_maps[key])
-        for name in ("last_event", "activity"):
-            record[name] = self._record[name]
-        for e, desire in enumerate(agent.desires):
-            if desire.valence == LEARNED and desire in self.agent.desires:
-                for name in ("worth", "meetings"):
-                    record["desires"][name][e] = self._record["desires"][name][self.agent.desires.index(desire)]
+        if self._has_begun:
+            execute(loop.begin, record, memory, self._scene, loop_of(agent).functions)
+            check_faults(record["faults"], own_axes(agent), agent.learning.credit)
+        keeping.continue_as(self.agent, self._record, self._memory, agent, record, memory)
         vars(self).update(_agent=agent, _record=record, _memory=memory)  # at once, even if interrupted
         self._bind()
 
     def transfer(self, other: "Individual") -> None:
         """Copy the values of another `Learner` or `Run`, and the range of goals that its cells have learned about.
 
-        other: one with the same maps and as many actions. Raises ValueError for anything else.
+        other: one whose nodes have the same names, states, goals and maps, with as many actions. Raises ValueError for
+        anything else, RuntimeError while another thread advances this one.
         """
-        maps = checks.instance("other", other, Individual).agent.maps
-        if maps != self.agent.maps or len(other.world.actions.names) != len(self.world.actions.names):
-            raise ValueError(f"other must have the maps {self.agent.maps} and {len(self.world.actions.names)} actions, "
-                             f"but has {maps} and {len(other.world.actions.names)}")
-        for m in range(len(maps)):
-            _values_of(self.agent, self._record, self._memory, m)[...] = other.q(m)
-        self._memory.goal_range[:] = other._memory.goal_range
+        checks.instance("other", other, Individual)
+        actions, others = len(self.world.actions.names), len(other.world.actions.names)
+        if actions != others:
+            raise ValueError(f"other must have {actions} actions, but has {others}")
+        self._alone.check("transfer", called_back=True)
+        keeping.transfer(other.agent, other._record, other._memory, self.agent, self._record, self._memory)
 
     def copy(self) -> Self:
-        """An independent copy, which continues from here bit for bit the same."""
+        """An independent copy, which continues from here bit for bit the same.
+
+        Raises RuntimeError while another thread advances this one.
+        """
         other = object.__new__(type(self))
         other.__setstate__({name: mapped(np.copy, value) if name in self._kept else value
                             for name, value in self.__getstate__().items()})
@@ -171,10 +168,11 @@ class Individual:
         return self.copy()
 
     def __getstate__(self):  # without compiled code, which `_bind` finds again
+        self._alone.check("copy", called_back=True)
         return {name: getattr(self, name) for name in ("_agent", "_world", "_progress", *self._kept)}
 
     def __setstate__(self, state):
-        vars(self).update(state)
+        vars(self).update(state, _alone=Alone(self._remedy))
         for name in self._kept:
             setattr(self, name, kept_apart(getattr(self, name)))
         self._bind()
@@ -182,14 +180,15 @@ class Individual:
     def save(self, path: str | PathLike[str]) -> None:
         """Save everything to a file, from which `load` continues bit for bit the same.
 
-        An existing file is replaced. Raises OSError if it cannot be written, ValueError for anything but a path, and
-        for an agent with a kernel that is not defined in a module. Warns of what stands in ``__main__``, which other
-        programs cannot load.
+        An existing file is replaced. Raises OSError if it cannot be written, ValueError for anything but a path, for
+        an agent with a kernel that is not defined in a module, and after one has returned NaN; RuntimeError while
+        another thread advances this one. Warns of what stands in ``__main__``, which other programs cannot load.
         """
+        self._alone.check("save", called_back=True)
+        self._check_faults()
         data = {"agent": described(self.agent, Agent), "world": described(self.world)}
         about = data | {"code": code_of(data, self), "progress": self._progress}
-        write_arrays(checks.path("path", path), type(self).__name__, about, {
-            f"{name}.{each}": values for name in self._kept for each, values in arrays(getattr(self, name)).items()})
+        write_arrays(checks.path("path", path), type(self).__name__, about, self._state())
         warn_of_main(path, data)
 
     @classmethod
@@ -200,54 +199,28 @@ class Individual:
         code of a kernel or a world of the user's has changed or cannot be found.
         """
         path = checks.path("path", path)
-        about, kept = read_arrays(path, cls.__name__)
+        with open_arrays(path, cls.__name__) as file:
+            try:
+                changed = changes({name: file.about[name] for name in ("agent", "world")}, file.about.get("code"))
+                if not changed:
+                    agent, world = restored(file.about["agent"], Agent), restored(file.about["world"])
+                    loaded = cls._of(agent, world)
+                    loaded._progress = loaded._checked_progress(file.about["progress"])
+            except (ValueError, LookupError, TypeError, AttributeError, RecursionError) as error:
+                raise ValueError(f"{path} must describe an agent in a world of this version of neorl, but "
+                                 f"{error!r}") from error
+            if changed:
+                raise ValueError(f"{path}: a {cls.__name__} must go on with the code that it was saved with, but "
+                                 f"{'; '.join(changed.values())}: restore that code, or begin another")
+            file.read_into(loaded._state())
         try:
-            changed = changes({name: about[name] for name in ("agent", "world")}, about.get("code"))
-            if not changed:
-                loaded = cls._of(restored(about["agent"], Agent), restored(about["world"]))
-                loaded._progress = about["progress"]
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise ValueError(f"{path} must describe an agent in a world of this version of neorl, but "
-                             f"{error!r}") from error
-        if changed:
-            raise ValueError(f"{path}: a {cls.__name__} must go on with the code that it was saved with, but "
-                             f"{'; '.join(changed.values())}: restore that code, or begin another")
-        for name in cls._kept:
-            for each, mine in arrays(getattr(loaded, name)).items():
-                saved = kept.get(f"{name}.{each}", np.empty(0, object))
-                if (saved.dtype, saved.shape) != (mine.dtype, mine.shape):
-                    raise ValueError(f"{path}: {name}.{each} must be {mine.dtype} {mine.shape}, but is {saved.dtype} "
-                                     f"{saved.shape}; the file is of another version of neorl")
-                mine[...] = saved
+            keeping.check_state(loaded._record, loaded._memory)
+            loaded._check_surroundings()
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from error
         return loaded
 
-
-def _keep_map(old_record, old_memory, old_m, record, memory, m):
-    """Copy the active cells of a map and its memory of how they were reached, all but its values."""
-    was, now = old_record["maps"][old_m], record["maps"][m]
-    for part, names in OF_A_MAP.items():
-        first, end = f"first_{part}", f"end_{part}"
-        for name in names if now[end] > now[first] else ():
-            old, new = (getattr(all_of, name).reshape(of_all["maps"][of_all["n_maps"] - 1][end], -1)
-                        for of_all, all_of in ((old_record, old_memory), (record, memory)))
-            new[now[first] : now[end]] = old[was[first] : was[end]]
-
-
-def _values_of(agent, record, memory, m):
-    """The values of a map in the layout of `Individual.q`, as a view."""
-    nres, node = record["maps"][m], [node for node in agent.nodes for _ in node.resolutions][m]
-    values, cells = memory.q[nres["first_value"] : nres["end_value"]], nres["cells"]
-    actions = len(record["push"])
-    if node.state != "object":
-        return values.reshape(1, cells, actions).swapaxes(1, 2)
-    if node.goals == "contacts":
-        return values.reshape(cells, actions, ENTRIES)
-    if agent.learning.bootstrap:  # see `neorl.core.learning.Order`
-        return values.reshape(cells, actions, cells)
-    return values.reshape(cells, cells, actions).transpose(1, 2, 0)
-
-
-def _map_keys(agent):
-    memory = agent.learning.memory
-    return [(node.name, node.goals, node.state, node.beyond, each, memory > 0 if node.state == "object" else memory)
-            for node in agent.nodes for each in node.maps]
+    def _state(self):
+        """All arrays of its state and of its world's, by name."""
+        return keeping.state_of(self._record, self._memory) | {
+            f"world.{name}": array for name, array in arrays(self._surroundings).items()}

@@ -59,6 +59,8 @@ class Learner(Individual):
     """
 
     _kept = ("_record", "_memory", "_scene")
+    _has_begun = property(lambda self: self._progress != UNBORN)
+    _surroundings = property(lambda self: self._scene)
 
     def __init__(self, agent: Agent, things: int = 0, kinds: Sequence[str] = (), actions: Actions = CARDINAL,
                  seed: int = 0, size: float = 1.0, fps: float = 50) -> None:
@@ -90,24 +92,28 @@ class Learner(Individual):
 
         scene: a `neorl.Scene`, as in `observe`. Raises ValueError for one that does not fit.
         """
-        self._take(scene)
-        if self._progress == UNBORN or self.agent.resets == "noticed":
-            self._calls[0]()
-        self._progress = "to act"
-        self._check_faults()
+        with self._alone.call("begin"):
+            self._take(scene)
+            if not self._has_begun or self.agent.resets == "noticed":
+                self._calls[0]()
+            self._progress = "to act"
+            self._check_faults()
 
     def act(self) -> int:
         """Choose an action, and return its number, 0 … actions − 1, or the number of actions for being idle.
 
         ``actions.table[number]`` is its push, 0 when idle.
 
-        Raises RuntimeError before the first scene, or if the outcome of the last action was not observed.
+        Raises RuntimeError before the first scene, or if the outcome of the last action was not observed; ValueError
+        for a kernel of an axis that has returned NaN.
         """
-        if self._progress != "to act":
-            raise RuntimeError(f"act() must follow begin(scene) or observe(scene), but came {self._progress}")
-        action = self._calls[1]()
-        self._progress = "twice"
-        return action
+        with self._alone.call("act"):
+            if self._progress != "to act":
+                raise RuntimeError(f"act() must follow begin(scene) or observe(scene), but came {self._progress}")
+            action = self._calls[1]()
+            self._progress = "twice"
+            self._check_faults()
+            return action
 
     def observe(self, scene: Any, reward: float = 0.0) -> None:
         """Perceive the outcome of the last action, and learn from it.
@@ -121,14 +127,26 @@ class Learner(Individual):
         Raises ValueError for a scene that does not fit or is not finite, and for a kernel of an axis or of the credit
         that has returned NaN; RuntimeError unless the agent has acted.
         """
-        if self._progress != "twice":
-            raise RuntimeError("observe(scene) must follow act(), but came before it")
-        reward = checks.real("reward", reward)
-        self._take(scene)
-        self._record["reward"] = reward
-        self._calls[2]()
-        self._progress = "to act"
-        self._check_faults()
+        with self._alone.call("observe"):
+            if self._progress != "twice":
+                raise RuntimeError("observe(scene) must follow act(), but came before it")
+            reward = checks.real("reward", reward)
+            self._take(scene)
+            self._record["reward"] = reward
+            self._calls[2]()
+            self._progress = "to act"
+            self._check_faults()
+
+    def _checked_progress(self, progress):
+        return checks.one_of("progress", progress, (UNBORN, "to act", "twice"))
+
+    def _check_surroundings(self):
+        scene, n_kinds = self._scene, len(self.world.kinds)
+        for name in ("position", "velocity", "things"):
+            checks.finite(f"scene.{name}", getattr(scene, name))
+        for name, least, most in (("kinds", ABSENT, n_kinds - 1), ("met", 0, n_kinds)):
+            for number in getattr(scene, name):
+                checks.integer(f"scene.{name}", number, least, most)
 
     def _take(self, scene):
         """Check a scene, and copy it."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from neorl.common.container import free_memory
+from neorl.common.container import usable_bytes
 from neorl.core.building import n_bytes
 from neorl.kernels.annotations import mapped
 
@@ -14,15 +14,6 @@ def fitting_runs(record):
     """How many runs of an agent fit into nine tenths of the free memory, by its record. MemoryError if none fits."""
     needed = n_bytes(record)
     return int(usable_bytes(needed, "a run of this agent needs", "choose fewer or coarser maps") // needed)
-
-
-def usable_bytes(needed, what, remedy):
-    """Nine tenths of the free memory, in bytes. Raises MemoryError if what needs `needed` bytes does not fit."""
-    free = free_memory()
-    if needed > 0.9 * free:
-        raise MemoryError(f"{what} {min(needed, 10**30) / 2**30:.1f} GiB of memory, but {free / 2**30:.1f} are free; "
-                          f"{remedy}")
-    return 0.9 * free
 
 
 def kept_apart(values):

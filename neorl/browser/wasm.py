@@ -31,7 +31,6 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.agents.embodiment import loop_of
-from neorl.agents.individual import OF_A_MAP
 from neorl.agents.papers import brownian
 from neorl.agents.spaces import pilot
 from neorl.browser.seeding import start_stream
@@ -44,7 +43,7 @@ from neorl.core import contacts, derived, displacement, loop
 from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
 from neorl.core.derived import begin_values, derive
 from neorl.core.functions import AgentFunctions, Loop
-from neorl.core.layout import CUT, TRACK, Memory, agent_type
+from neorl.core.layout import DERIVED, KEEPING, PART_OF, WORKING, CUT, TRACK, Memory, agent_type
 from neorl.experiments.condition import PARTS, source_digest
 from neorl.kernels.annotations import Record, fields, is_tuple
 from neorl.kernels.identity import can_cache, digest_of_source
@@ -176,7 +175,9 @@ def layout(name="plane"):
             "exports": {each.__name__: {"arguments": _described_all(_passed(each)),
                                         "result": SCALARS.get(fields(each)["return"])} for each in exports},
             "enumerations": {kind.__name__: {each.name: int(each) for each in kind} for kind in ENUMERATIONS},
-            "of_a_map": OF_A_MAP}
+            "of_a_map": {part: [name for name, keeping in KEEPING.items() if keeping not in (WORKING, DERIVED)
+                                and name != "q" and PART_OF[fields(Memory)[name][1][0]] == part]
+                         for part in set(PART_OF.values()) - {"value"}}}
 
 
 def _records(name, dtype):

@@ -28,6 +28,15 @@ def free_memory(groups: str | Path = GROUPS, own: str | Path = OWN) -> int:
     return max(0, min(free))
 
 
+def usable_bytes(needed: int, what: str, remedy: str) -> float:
+    """Nine tenths of the free memory, in bytes. Raises MemoryError if what needs `needed` bytes does not fit."""
+    free = free_memory()
+    if needed > 0.9 * free:
+        raise MemoryError(f"{what} {min(needed, 10**30) / 2**30:.1f} GiB of memory, but {free / 2**30:.1f} are free; "
+                          f"{remedy}")
+    return 0.9 * free
+
+
 def cores(groups: str | Path = GROUPS, own: str | Path = OWN) -> int:
     """The number of cores on which this process may run, ≥ 1; a part of a core counts as one. groups, own: as above.
 

@@ -7,20 +7,16 @@ killed process left unfinished is removed by a later one.
 import contextlib
 import functools
 import hashlib
-import io
-import json
 import os
 import time
 import uuid
 from pathlib import Path
 
-import numpy as np
 import platformdirs
 
 DIGEST_BYTES = hashlib.sha256().digest_size
 UNFINISHED = (".neorl-", ".tmp")  # prefix and suffix of the name of a file being written
 STALE_SECONDS = 3_600  # since the last write: by then no process is still writing
-FORMAT = 1  # the version of array files
 CHECKOUT = Path(__file__).resolve().parents[2]  # of neorl, unless it is installed
 
 
@@ -90,44 +86,3 @@ def read_checked(path):
     except OSError:
         return None
     return content[DIGEST_BYTES:] if hashlib.sha256(content[DIGEST_BYTES:]).digest() == content[:DIGEST_BYTES] else None
-
-
-def write_arrays(path, kind, about, arrays, write=np.savez):
-    """Write arrays to an npz file, with readable metadata in JSON, and a digest.
-
-    kind, about: the kind of content, and its metadata, a dict. write: `numpy.savez` or `numpy.savez_compressed`.
-    """
-    about = {"format": FORMAT, "is": kind, **about, "digest": _digest(arrays)}
-    content = io.BytesIO()
-    write(content, about=np.array(json.dumps(about)), **arrays)
-    write_whole(path, content.getbuffer())
-
-
-def read_arrays(path, kind):
-    """The metadata and arrays written by `write_arrays`: (about, arrays).
-
-    Raises OSError if there is no such file, ValueError if it is damaged, or of another kind or version.
-    """
-    with Path(path).open("rb") as opened:
-        try:
-            with np.load(opened, allow_pickle=False) as file:
-                arrays = {name: file[name] for name in file.files}
-            about = json.loads(str(arrays.pop("about")))
-            digest, known, holds = about["digest"], about.get("format"), about.get("is")
-        except Exception as error:  # zip, NumPy and JSON may raise anything for a foreign file
-            raise ValueError(f"{path} must be a file of neorl's, but is damaged, or another's: {error!r}") from error
-    if isinstance(known, int) and known > FORMAT:
-        raise ValueError(f"{path} must be of format {FORMAT}, but is of {known}; a newer neorl has "
-                         "written it: update yours")
-    if (known, holds) != (FORMAT, kind) or digest != _digest(arrays):
-        raise ValueError(f"{path} must hold a {kind} of format {FORMAT}, but holds a {holds} of format {known}, or is "
-                         "damaged")
-    return about, arrays
-
-
-def _digest(arrays):
-    digest = hashlib.sha256()
-    for name in sorted(arrays):
-        digest.update(f"{name} {arrays[name].dtype} {arrays[name].shape}".encode())
-        digest.update(np.ascontiguousarray(arrays[name]).data)
-    return digest.hexdigest()

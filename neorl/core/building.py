@@ -11,14 +11,14 @@ import numpy as np
 
 from neorl.core.choices import Cut, Feature, MapState, Vector
 from neorl.core.derived import begin_values, derive
-from neorl.core.layout import Memory, Record, agent_type, rows_for
+from neorl.core.layout import DERIVED, KEEPING, Memory, Record, agent_type, rows_for
 from neorl.core.learning import order_of, place_of, values_of
 from neorl.kernels.annotations import fields, length, new_tuple
 from neorl.kernels.execution import in_table, interpret
 from neorl.kernels.kernel import kernel
 
 TABLES = ("nodes", "maps", "axes", "desires")
-WITHOUT_VALUES = ("cuts", "points", "goals", "elements", "boundary", "landmark", "frames")
+WITHOUT_VALUES = tuple(name for name, keeping in KEEPING.items() if keeping is DERIVED)
 
 
 def new_agent(choices, n_things):

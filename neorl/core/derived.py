@@ -126,7 +126,11 @@ def list_desires(agent, memory):
         node = agent.nodes[desire.target]
         node.end_input += 1
         node.receives = node.receives or desire.source == Source.node
-        desire.worth = desire.valence
+        desire.worth, desire.worth_of = desire.valence, e
+        for first in range(e if desire.learned else 0):
+            if agent.desires[first].learned and agent.desires[first].kind == desire.kind:
+                desire.worth_of = first
+                break
         if desire.source == Source.point:
             for m in range(node.first_map, node.end_map):
                 goal = 0

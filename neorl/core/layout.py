@@ -6,16 +6,19 @@ order of the agent's nodes, and desires in the agent's. ``first_…`` is where a
 ``end_…`` where it ends. A *track* is one point that a map follows: the agent itself, or one of the things that its
 modality represents. All tracks of a map share its values.
 
-What is *derived* is filled in by `neorl.core.derived`, everything before it by `neorl.agents.embodiment`.
+What is *derived* is filled in by `neorl.core.derived`, everything before it by `neorl.agents.embodiment`. What is
+*state* goes on when the agent changes, in a copy and in a file (`neorl.agents.keeping`): of the record, the fields
+`of_desire` and `of_agent`; of the memory, the arrays that are `kept`, each of which has a part for every map.
 """
 
 import functools
-from typing import NamedTuple
+from enum import Enum
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from neorl.kernels.annotations import Record as Record
-from neorl.kernels.annotations import array, tabled
+from neorl.kernels.annotations import array, marks, tabled
 
 INT, REAL, SINGLE, FLAG = np.int64, np.float64, np.float32, np.bool_
 INDEX = np.uint64  # never negative: an index that might be would have to be tested
@@ -105,6 +108,26 @@ POLICY = record_of(  # see `neorl.agents.rules.Policy`
     ("last", INT))  # the highest number that may be chosen: that of idleness, if the agent can be idle
 
 
+def of_desire(actions=1, axes=1):
+    """The state of a desire, at the last choice that was not random: fields of a record."""
+    return (
+        ("q", REAL, actions),  # the contribution to the action values of its node
+        ("target_at", REAL, axes),  # where a node's desire lands relative to the agent
+        ("target_valence", REAL), ("total_valence", REAL),  # of all its elements together
+        ("worth", REAL),  # of one of them; constant unless it is learned
+        ("meetings", INT))  # from which the worth was learned
+
+
+def of_agent(actions=1):
+    """The state of an agent besides: fields of its record."""
+    return (
+        ("last_event", INT), ("reward", REAL),  # of the last step
+        ("activity", SINGLE, actions),  # of each event
+        ("action_value", REAL, actions),  # at the last choice that was not random
+        ("stream", INDEX, 4),  # the random numbers of the policy
+        ("evaluation", INT))  # the number of evaluations of desires
+
+
 @functools.cache
 def agent_type(actions, axes, rows):
     """The dtype of the record of an agent in a world of so many actions and axes, with so many rows in its tables."""
@@ -119,12 +142,8 @@ def agent_type(actions, axes, rows):
         ("place", REAL, axes),
         ("first_coordinate", INT),  # in `Memory.points`, of a point
         ("first_goal", INT),  # derived: in `Memory.goals`, its cell in each map of the node
-        # state, at the last choice that was not random
-        ("q", REAL, actions),  # the contribution to the action values of its node
-        ("target_at", REAL, axes),  # where a node's desire lands relative to the agent
-        ("target_valence", REAL), ("total_valence", REAL),  # of all its elements together
-        ("worth", REAL),  # of one of them; constant unless it is learned
-        ("meetings", INT))  # from which the worth was learned
+        ("worth_of", INT),  # derived: the desire whose worth it has, the first that learns that of its kind, or itself
+        *of_desire(actions, axes))
     return record_of(
         ("nodes", NODE, rows), ("maps", MAP, rows), ("axes", AXIS, rows), ("desires", desire, rows),
         ("n_nodes", INT), ("n_maps", INT), ("n_axes", INT), ("n_desires", INT),
@@ -134,13 +153,8 @@ def agent_type(actions, axes, rows):
         ("own_cell_counts", FLAG), ("shared_cell_counts_once", FLAG), ("notices_resets", FLAG),
         ("push", REAL, (actions, axes)),  # of each action that is an event
         ("learning", LEARNING), ("contacts", CONTACTS), ("policy", POLICY),
-        # state
-        ("last_event", INT), ("reward", REAL),  # of the last step
+        *of_agent(actions),
         ("faults", INT, 2),  # 1 + the number of a user-defined axis, and 1 for the credit rule, that has returned NaN
-        ("activity", SINGLE, actions),  # of each event
-        ("action_value", REAL, actions),  # at the last choice that was not random
-        ("stream", INDEX, 4),  # the random numbers of the policy
-        ("evaluation", INT),  # the number of evaluations of desires
         # working memory
         ("rates", SINGLE, actions),  # of the events in the cell that a track leaves
         ("here", REAL, axes),  # where the agent is, in units of the world's size
@@ -149,29 +163,52 @@ def agent_type(actions, axes, rows):
         ("rival", REAL, actions), ("favourite", REAL, actions))  # what a thing, and the best, adds to action values
 
 
+class Keeping(Enum):
+    """What becomes of an array of `Memory` as the agent changes, and in a file."""
+
+    values = "kept with the map"  # also where its tracks begin afresh
+    tracks = "kept with the map and its kind of memory"
+    places = "the same, of indices in q"
+    working = "0, or written before it is read"
+    derived = "made of the agent and its world"
+
+
+def kept(keeping, dtype, *shape):
+    """The annotation of an array, and its `Keeping`."""
+    return Annotated[array(dtype, *shape), keeping]
+
+
+VALUES, TRACKS, PLACES, WORKING, DERIVED = Keeping
+
+
 @tabled
 class Memory(NamedTuple):
     """What of an agent grows with its cells, or has no bound: its values, tracks and traces, map after map."""
 
-    q: array("float32", "values")  # see `learning.Order`
-    goal_range: array("int64", "cells", 2)  # for each cell, the range of goals whose values may differ from 0
-    counted: array("int64", "cells")  # the last evaluation in which an element in the cell has counted
-    scratch: array("float32", "scratch")  # working memory
-    tracks: array(TRACK, "tracks")
-    events: array("int64", "tracks", "actions + 1")  # steps in the cell on which each action was taken, idleness last
-    remembered: array("int64", "traces")  # the fields of a `learning.Trace`, one track after the other
-    remembered_at: array("int64", "traces")
-    strength: array("float32", "traces")
-    trace_weight: array("float32", "trace_weights")
-    trace_worth: array("float32", "trace_weights")
-    passed_at: array("float64", "passed", "axes")  # where the self has left a cell, a ring buffer for each track
-    passed_rates: array("float32", "passed", "actions")  # the rates of the events until it left the next
-    seen_from: array("float64", "passed")  # working memory: the cell of the self as seen from each place passed
-    left: array("int64", "tracks", "left")  # indices in q of the actions taken last, a ring buffer for each track
-    cuts: array(CUT, "cuts")  # of each map along each axis of its node
-    points: array("float64", "coordinates")  # of the desires for points
-    goals: array("int64", "goals")  # their cells
-    elements: array("int64", "elements")  # desires
-    boundary: array("float64", "boundaries")
-    landmark: array("float64", "landmarks", "axes")
-    frames: array("int64", "frames", "actions")  # what each action becomes in each mirror image of the world
+    q: kept(VALUES, "float32", "values")  # see `learning.Order`
+    goal_range: kept(VALUES, "int64", "cells", 2)  # for each cell, the range of goals whose values may differ from 0
+    counted: kept(WORKING, "int64", "cells")  # the last evaluation in which an element in the cell has counted
+    scratch: kept(WORKING, "float32", "scratch")
+    tracks: kept(TRACKS, TRACK, "tracks")
+    events: kept(TRACKS, "int64", "tracks", "actions + 1")  # steps in the cell with each action, idleness last
+    remembered: kept(TRACKS, "int64", "traces")  # the fields of a `learning.Trace`, one track after the other
+    remembered_at: kept(TRACKS, "int64", "traces")
+    strength: kept(TRACKS, "float32", "traces")
+    trace_weight: kept(TRACKS, "float32", "trace_weights")
+    trace_worth: kept(TRACKS, "float32", "trace_weights")
+    passed_at: kept(TRACKS, "float64", "passed", "axes")  # where the self has left a cell, a ring buffer for each track
+    passed_rates: kept(TRACKS, "float32", "passed", "actions")  # the rates of the events until it left the next
+    seen_from: kept(WORKING, "float64", "passed")  # the cell of the self as seen from each place passed
+    left: kept(PLACES, "int64", "tracks", "left")  # of the actions taken last, a ring buffer for each track
+    cuts: kept(DERIVED, CUT, "cuts")  # of each map along each axis of its node
+    points: kept(DERIVED, "float64", "coordinates")  # of the desires for points
+    goals: kept(DERIVED, "int64", "goals")  # their cells
+    elements: kept(DERIVED, "int64", "elements")  # desires
+    boundary: kept(DERIVED, "float64", "boundaries")
+    landmark: kept(DERIVED, "float64", "landmarks", "axes")
+    frames: kept(DERIVED, "int64", "frames", "actions")  # what each action becomes in each mirror image of the world
+
+
+KEEPING = marks(Memory)
+PART_OF = {"values": "value", "cells": "cell", "tracks": "track", "traces": "trace", "trace_weights": "trace",
+           "passed": "passed"}  # of a map, which begins at ``first_…`` and ends at ``end_…``, by the first dimension

@@ -229,19 +229,23 @@ def learn_worth(agent, scene):
     """Learn, for desires, the worth of kinds of things from the rewards on meeting them (Rescorla and Wagner 1972).
 
     The reward of a step beyond the worths of the things met in it updates the worth of each of their kinds, at the rate
-    1 / n for the n-th meeting, or a tenth if that is higher.
+    1 / n for the n-th meeting, or a tenth if that is higher. All desires that learn the worth of a kind have one.
     """
+    # V_k ← V_k + max(1 / n_k, 0.1) (r − Σ V), summed over the things met
     surprise = agent.reward
     for e in range(agent.n_desires):
         desire = agent.desires[e]
-        if desire.learned:
+        if desire.learned and desire.worth_of == e:
             for thing in range(scene.met.shape[0]):
                 if scene.met[thing] == desire.kind + 1:
                     surprise -= desire.worth
     for e in range(agent.n_desires):
         desire = agent.desires[e]
-        if desire.learned:
+        if desire.learned and desire.worth_of == e:
             for thing in range(scene.met.shape[0]):
                 if scene.met[thing] == desire.kind + 1:
                     desire.meetings += 1
                     desire.worth += max(0.1, 1.0 / desire.meetings) * surprise
+        elif desire.learned:  # after the desire that it reads
+            desire.worth = agent.desires[desire.worth_of].worth
+            desire.meetings = agent.desires[desire.worth_of].meetings

@@ -17,10 +17,16 @@ def n_bins(world, steps):
     return -(-steps // bin_steps(world))
 
 
+def bin_shapes(world, runs, steps):
+    """The types and shapes of the rewards and hits of runs of `steps` steps, {name: (dtype, shape)}."""
+    bins = n_bins(world, steps)
+    return {"rewards": (np.dtype(np.float32), (runs, bins)),
+            "hits": (np.dtype(np.int16), (runs, bins, len(world.kinds)))}
+
+
 def new_bins(world, runs, steps):
     """Zeros for the rewards and hits of runs of `steps` steps: float32 (runs, bins) and int16 (runs, bins, kinds)."""
-    bins = n_bins(world, steps)
-    return np.zeros((runs, bins), np.float32), np.zeros((runs, bins, len(world.kinds)), np.int16)
+    return tuple(np.zeros(shape, dtype) for dtype, shape in bin_shapes(world, runs, steps).values())
 
 
 def checked_bins(name, array, dtype, bins, *beside):

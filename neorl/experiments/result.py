@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl.common import checks
+from neorl.common.array_files import open_arrays, write_arrays
 from neorl.common.extras import require
-from neorl.common.files import read_arrays, write_arrays
 from neorl.common.version import VERSION
 from neorl.common.warn import warn
 from neorl.description import described, restored, warn_of_main
-from neorl.experiments.bins import bin_steps, n_bins
+from neorl.experiments.bins import bin_shapes, bin_steps
 from neorl.experiments.condition import Condition
 from neorl.worlds.former import changes, code_of, stand_in
 
@@ -120,14 +120,14 @@ class Result:
         Raises OSError if there is no such file, ValueError if it is damaged, of another kind or from a newer neorl.
         """
         path = checks.path("path", path)
-        known, arrays = read_arrays(path, "Result")
-        try:
-            changed = changes(known, known.get("code"))
-            stand_in(known, known.get("code"), changed)
-            condition = condition_of(known)
-            result = cls(condition, *fitting(arrays, condition, condition.runs))
-        except ValueError as error:
-            raise ValueError(f"{path}: {error}") from error
+        with open_arrays(path, "Result") as file:
+            try:
+                changed = changes(file.about, file.about.get("code"))
+                stand_in(file.about, file.about.get("code"), changed)
+                condition = condition_of(file.about)
+            except (ValueError, LookupError, TypeError, AttributeError) as error:
+                raise ValueError(f"{path}: {error}") from error
+            result = cls(condition, **file.read(bin_shapes(condition.world, condition.runs, condition.steps)))
         if changed:
             warn(f"{path} has a result of other code than the present: {'; '.join(changed.values())}")
         return result
@@ -146,13 +146,3 @@ def condition_of(known):
     """The condition that `about` has described. Raises ValueError if it cannot be restored."""
     return restored({each.name: known[each.name] for each in fields(Condition) if each.name in known}, Condition)
 
-
-def fitting(arrays, condition, runs):
-    """Rewards and hits of runs of a condition, from {name: array}. Raises ValueError if they are of another one."""
-    bins = n_bins(condition.world, condition.steps)
-    for name, dtype, shape in (("rewards", np.float32, (runs, bins)),
-                               ("hits", np.int16, (runs, bins, len(condition.world.kinds)))):
-        found = arrays.get(name, np.empty(0))
-        if (found.dtype, found.shape) != (dtype, shape):
-            raise ValueError(f"{name} must be {dtype.__name__} {shape}, but is {found.dtype} {found.shape}")
-    return arrays["rewards"], arrays["hits"]

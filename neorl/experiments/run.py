@@ -67,6 +67,9 @@ class Run(Individual):
     """
 
     _kept = ("_record", "_memory", "_world_state")
+    _remedy = "each must not advance the run; use run.copy()"
+    _has_begun = True
+    _surroundings = property(lambda self: self._world_state)
 
     def __init__(self, agent: Agent, world: World, seed: int = 0, run: int = 0, after: Self | None = None) -> None:
         checks.instance("agent", agent, Agent)
@@ -80,6 +83,7 @@ class Run(Individual):
         self._progress = 0
         self._bind()
         execute(loop.begin, self._record, self._memory, self._scene, loop_of(agent).functions)
+        self._check_faults()
 
     @classmethod
     def _of(cls, agent, world):
@@ -93,6 +97,12 @@ class Run(Individual):
         self._loop = [in_table(each, self._record.dtype) for each in (
             self._record, self._memory, self._scene, loop_of(self.agent))]
 
+    def _checked_progress(self, progress):
+        return checks.integer("progress", progress, 0, MOST_STEPS)
+
+    def _check_surroundings(self):
+        self.world.check_state(self._world_state)
+
     @property
     def world_state(self) -> Any:
         """The state of the world, with writable arrays. An assigned state is copied."""
@@ -100,6 +110,7 @@ class Run(Individual):
 
     @world_state.setter
     def world_state(self, state):
+        self._alone.check("world_state", called_back=True)
         self.world.check_state(state)
         given = arrays(state)
         for name, mine in arrays(self._world_state).items():
@@ -118,36 +129,39 @@ class Run(Individual):
         rewards: float32 (bins,); if given, receives the reward in each bin of about 0.2 s, see `edges` of a result.
         hits: int16 (bins, kinds), likewise the number of things of each kind that were met, at most 32,767.
         each: called with the run after every `every` steps and after the last one, to report progress, to save a
-            checkpoint, or to measure. every: an integer ≥ 1. Neither changes what the run does.
+            checkpoint, or to measure; it must not advance the run itself, but may advance a copy of it. every: an
+            integer ≥ 1. Neither changes what the run does, unless `each` changes the agent.
 
         After an interruption the run can continue from its `step`; so can a process that was killed, from a checkpoint
         with `Run.load`, and both bit for bit.
         Raises ValueError if they do not fit, if the world's state does not or is not finite, before or after a step,
-        and for a kernel of the user's that has returned a reward, a credit or a coordinate which is not a number.
+        and for a kernel of the user's that has returned a reward, a credit or a coordinate which is not a number;
+        RuntimeError within another call, of `each` or of another thread.
 
         >>> run = neorl.Run(neorl.place_cells([3]), neorl.WaterWorld())
         >>> paid = run.advance(3_000, each=lambda run: run.save("run.npz"), every=1_000)
         >>> paid += neorl.Run.load("run.npz").advance(1_000)
         """
-        self.world.check_state(self._world_state)
-        last = self.step + checks.integer("steps", steps, 0, MOST_STEPS - self.step)
-        every = checks.integer("every", every, at_least=1)
-        if each is not None and not callable(each):
-            raise ValueError(f"each must be a function that takes the run, or None, but is {checks.shown(each)}")
-        bin_length = bin_steps(self.world)
-        if rewards is None and hits is None:
-            bin_length = last + 1  # a single bin, which is discarded
-        bins = -(-last // bin_length)
-        rewards = checked_bins("rewards", rewards, np.float32, bins)
-        hits = checked_bins("hits", hits, np.int16, bins, len(self.world.kinds))
-        log, due = self._log(bin_length, rewards, hits), self.step + every
-        while self.step < last:
-            self._take(log, min(last, due, self.step + SLICE))
-            if self.step == due or self.step == last:
-                due += every
-                if each is not None:
-                    each(self)
-        return float(log.paid[0])
+        with self._alone.call("advance"):
+            self.world.check_state(self._world_state)
+            last = self.step + checks.integer("steps", steps, 0, MOST_STEPS - self.step)
+            every = checks.integer("every", every, at_least=1)
+            if each is not None and not callable(each):
+                raise ValueError(f"each must be a function that takes the run, or None, but is {checks.shown(each)}")
+            bin_length = bin_steps(self.world)
+            if rewards is None and hits is None:
+                bin_length = last + 1  # a single bin, which is discarded
+            bins = -(-last // bin_length)
+            rewards = checked_bins("rewards", rewards, np.float32, bins)
+            hits = checked_bins("hits", hits, np.int16, bins, len(self.world.kinds))
+            log, due = self._log(bin_length, rewards, hits), self.step + every
+            while self.step < last:
+                self._take(log, min(last, due, self.step + SLICE))
+                if self.step == due or self.step == last:
+                    due += every
+                    if each is not None:
+                        each(self)
+            return float(log.paid[0])
 
     def record(self, steps: int, every: int = 1) -> Trajectory:
         """Take `steps` more steps, the same as `advance` takes, and return their `Trajectory`.
@@ -160,18 +174,19 @@ class Run(Individual):
         >>> x, y = path.positions.T
         >>> episodes, earned = len(path.returns), path.rewards.sum()
         """
-        self.world.check_state(self._world_state)
-        first, every = self.step, checks.integer("every", every, 1, MOST_STEPS)
-        last = first + checks.integer("steps", steps, 0, MOST_STEPS - first)
-        at = np.append(np.arange(first, last, every), last)
-        unread = np.zeros(1, np.float32), np.zeros((1, len(self.world.kinds)), np.int16)
-        log = self._log(last + 1, *unread, len(at) - 1, every)
-        start, episodes = self._scene.position[np.newaxis].copy(), [(log.ends, log.returns)]
-        while self.step < last:
-            until = min(last, self.step + SLICE)
-            log = log._replace(ends=np.zeros(until - self.step, np.int64), returns=np.zeros(until - self.step))
-            self._take(log, until)
-            episodes.append((log.ends[: log.clock[2]], log.returns[: log.clock[2]]))
+        with self._alone.call("record"):
+            self.world.check_state(self._world_state)
+            first, every = self.step, checks.integer("every", every, 1, MOST_STEPS)
+            last = first + checks.integer("steps", steps, 0, MOST_STEPS - first)
+            at = np.append(np.arange(first, last, every), last)
+            unread = np.zeros(1, np.float32), np.zeros((1, len(self.world.kinds)), np.int16)
+            log = self._log(last + 1, *unread, len(at) - 1, every)
+            start, episodes = self._scene.position[np.newaxis].copy(), [(log.ends, log.returns)]
+            while self.step < last:
+                until = min(last, self.step + SLICE)
+                log = log._replace(ends=np.zeros(until - self.step, np.int64), returns=np.zeros(until - self.step))
+                self._take(log, until)
+                episodes.append((log.ends[: log.clock[2]], log.returns[: log.clock[2]]))
         return Trajectory(at, np.concatenate([start, log.positions]), log.actions, log.frame_rewards, log.frame_hits,
                           *map(np.concatenate, zip(*episodes)))
 

@@ -25,9 +25,9 @@ from typing import NamedTuple
 
 from neorl.agents.agent import Agent
 from neorl.agents.embodiment import embodied
-from neorl.agents.memory import fitting_runs, usable_bytes
+from neorl.agents.memory import fitting_runs
 from neorl.common import checks
-from neorl.common.container import cores
+from neorl.common.container import cores, usable_bytes
 from neorl.common.warn import users_frame, work_for
 from neorl.core.building import n_values
 from neorl.experiments.bins import n_bins, new_bins

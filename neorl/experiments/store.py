@@ -20,10 +20,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agents.memory import usable_bytes
 from neorl.common import files
+from neorl.common.array_files import open_arrays, write_arrays
+from neorl.common.container import usable_bytes
 from neorl.common.warn import warn
-from neorl.experiments.result import Result, about, fitting
+from neorl.experiments.bins import bin_shapes
+from neorl.experiments.result import Result, about
 
 SECONDS = 5  # between two writes of a condition's runs; a write takes a hundredth of that
 DIGEST = "[0-9a-f]{64}"
@@ -44,10 +46,11 @@ def load_runs(condition, key=None):
     found = {}
     for path in _folder().glob(f"{key or condition.key}-*"):
         try:
-            _, arrays = files.read_arrays(path, "runs")
-            numbers = arrays["runs"].tolist()
-            found |= zip(numbers, zip(*fitting(arrays, condition, len(numbers))))
-        except (OSError, ValueError):  # absent, damaged, or of another version
+            with open_arrays(path, "runs") as file:
+                numbers = file.shapes["runs"]
+                arrays = file.read({"runs": numbers} | bin_shapes(condition.world, *numbers[1], condition.steps))
+            found |= zip(arrays["runs"].tolist(), zip(arrays["rewards"], arrays["hits"]))
+        except (OSError, ValueError, LookupError, TypeError):  # absent, damaged, or of another version
             continue
     return found
 
@@ -60,8 +63,8 @@ def save_runs(condition, runs, key=None):
         known = json.loads(json.dumps(condition.choices, default=repr))
     numbers, (rewards, hits) = np.array(list(runs)), map(np.stack, zip(*runs.values()))
     name = f"{key or condition.key}-{hashlib.sha256(numbers.tobytes()).hexdigest()[:16]}"
-    files.write_arrays(_folder() / name, "runs", known, {"runs": numbers, "rewards": rewards, "hits": hits},
-                       np.savez_compressed)
+    write_arrays(_folder() / name, "runs", known, {"runs": numbers, "rewards": rewards, "hits": hits},
+                 np.savez_compressed)
 
 
 def _folder():

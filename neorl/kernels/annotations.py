@@ -46,7 +46,14 @@ else:
 @functools.cache
 def fields(kind):
     """The fields of a named tuple or arguments of a kernel: {name: (dtype, shape)} for arrays, else {name: type}."""
-    return {name: get_args(hint)[1:] or hint for name, hint in get_type_hints(kind, include_extras=True).items()}
+    return {name: get_args(hint)[1:3] or hint for name, hint in get_type_hints(kind, include_extras=True).items()}
+
+
+@functools.cache
+def marks(kind):
+    """What else the arrays of a named tuple are annotated with, ``Annotated[array(…), mark]``: {name: mark}."""
+    return {name: get_args(hint)[3] for name, hint in get_type_hints(kind, include_extras=True).items()
+            if get_args(hint)[3:]}
 
 
 def new_tuple(kind, sizes, known):

@@ -265,17 +265,37 @@ def saved(tmp_path):
 
 
 @pytest.mark.parametrize("forge", [
-    lambda about, kept: about.update(format=2), lambda about, kept: about.pop("digest"),
+    lambda about, kept: about.update(format=1), lambda about, kept: about.update(progress="asleep"),
     lambda about, kept: about.pop("progress"), lambda about, kept: about["agent"].update(colour="red"),
     lambda about, kept: about["world"].update(things=5),
     lambda about, kept: about["agent"].update({"is": "neorl:Brain"}),
     lambda about, kept: about["agent"]["policy"].update(choose={"kernel": "os:getcwd", "of": []}),
-    lambda about, kept: kept.pop("_memory.q"), lambda about, kept: kept.update(more=np.zeros(3)),
-    lambda about, kept: kept["_memory.q"].fill(1.0)])
+    lambda about, kept: kept.pop("q"), lambda about, kept: kept.update(more=np.zeros(3)),
+    lambda about, kept: kept["q"].fill(np.nan)])
 def test_a_file_of_another_version_or_making_is_refused(saved, forge):
     rewrite(saved, forge)
     with pytest.raises(ValueError, match=str(saved)):
         Learner.load(saved)
+
+
+@pytest.mark.parametrize("edit", [
+    lambda file: file.update(about=np.array(str(file["about"]).replace('_rate": 0.0', '_rate": 0.9'))),
+    lambda file: file.update(q=np.ones_like(file["q"])), lambda file: file.update(digest=np.array("0" * 64))])
+def test_one_digest_covers_all_of_a_file(saved, edit):
+    with np.load(saved) as file:
+        content = dict(file)
+    edit(content)
+    with saved.open("wb") as file:
+        np.savez(file, **content)
+    with pytest.raises(ValueError, match=f"{saved} must be a file of neorl's, but is damaged"):
+        Learner.load(saved)
+
+
+def test_a_sound_file_that_does_not_fit_into_the_free_memory_is_called_no_damaged_one(tmp_path, monkeypatch):
+    Run(place_cells([30]), WaterWorld()).save(tmp_path / "run.npz")
+    monkeypatch.setattr("neorl.common.container.free_memory", lambda: 2**20)
+    with pytest.raises(MemoryError, match="a run of this agent needs .* GiB of memory, but 0.0 are free"):
+        Run.load(tmp_path / "run.npz")
 
 
 def test_a_folder_is_refused_by_its_own_name_and_other_errors_name_the_file(tmp_path, monkeypatch):
@@ -300,7 +320,7 @@ def test_another_learner_is_called_by_the_names_that_users_know():
 
 
 def test_what_is_no_learner_or_not_there_is_refused(saved, tmp_path):
-    with pytest.raises(ValueError, match="must hold a Run of format 1, but holds a Learner"):
+    with pytest.raises(ValueError, match="must hold a Run of format 2, but holds a Learner"):
         Run.load(saved)
     with pytest.raises(OSError):
         Learner.load(tmp_path / "nowhere")

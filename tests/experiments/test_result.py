@@ -89,12 +89,12 @@ def test_a_truncated_or_foreign_file_is_refused_by_name(saved, damage):
 
 
 @pytest.mark.parametrize("forge, message", [
-    (lambda about, kept: about.update(format=2), "must be of format 1, but is of 2; a newer neorl"),
-    (lambda about, kept: about.update({"is": "Run"}), "must hold a Result of format 1, but holds a Run"),
+    (lambda about, kept: about.update(format=3), "must be of format 2, but is of 3; a newer neorl"),
+    (lambda about, kept: about.update({"is": "Run"}), "must hold a Result of format 2, but holds a Run"),
     (lambda about, kept: about.update(steps=-5), ": steps must be .*, but is -5"),
-    (lambda about, kept: about.update(runs=10**12), r"must be float32 \(10{12}, 51\), but is float32 \(3, 51\)"),
-    (lambda about, kept: about.update(steps=600), r": rewards must be float32 \(3, 60\), but is float32 \(3, 51\)"),
-    (lambda about, kept: kept.pop("rewards"), "is damaged")])
+    (lambda about, kept: about.update(runs=10**12), r"hits must be int16 \(10{12}, 51, 2\), but is int16 \(3, 51, 2\)"),
+    (lambda about, kept: about.update(steps=600), r": hits must be int16 \(3, 60, 2\), but is int16 \(3, 51, 2\)"),
+    (lambda about, kept: kept.pop("rewards"), r": rewards must be float32 \(3, 51\), but is absent")])
 def test_a_forged_file_is_refused_by_name(saved, forge, message):
     rewrite(saved, forge)
     with pytest.raises(ValueError, match=f"{saved}.*{message}"):

@@ -1,10 +1,12 @@
 """A run refuses what would crash the interpreter or corrupt its values, and can be interrupted."""
 
 import _thread
+import pickle
 import subprocess
 import sys
 import threading
 import time
+from dataclasses import replace
 
 import numpy as np
 import psutil
@@ -133,6 +135,49 @@ def test_an_error_in_that_function_ends_the_call_at_its_step_and_a_bad_one_is_re
                                ({"every": 0}, "every must be an integer of at least 1, but is 0")]:
         with pytest.raises(ValueError, match=message):
             run.advance(10, **arguments)
+
+
+def test_a_call_within_a_call_is_refused_and_a_copy_goes_on():
+    run, plain = Run(SWIMMER, POOL, seed=4), Run(SWIMMER, POOL, seed=4)
+    for within in (lambda run: run.record(500), lambda run: run.advance(1)):
+        with pytest.raises(RuntimeError, match="each must not advance the run; use run.copy()"):
+            run.advance(1_000, each=within, every=500)
+    assert run.step == 1_000  # two halves
+    paths = []
+    run.advance(1_000, each=lambda run: paths.append(run.copy().record(500)), every=500)
+    plain.advance(2_000)
+    assert_same(run, plain)
+    assert [path.steps[0] for path in paths] == [1_500, 2_000]
+
+
+def test_the_agent_may_change_within_a_call():
+    other = replace(SWIMMER, policy=Policy(0.9))
+    run, plain = Run(SWIMMER, POOL, seed=4), Run(SWIMMER, POOL, seed=4)
+    run.advance(1_000, each=lambda run: run.step == 500 and run.change(other), every=500)
+    plain.advance(500)
+    plain.change(other)
+    plain.advance(500)
+    assert_same(run, plain)
+
+
+@pytest.mark.parametrize("call", [lambda run: run.advance(1), lambda run: run.record(1), Run.copy, pickle.dumps,
+                                  lambda run: run.change(SWIMMER), lambda run: run.transfer(run),
+                                  lambda run: setattr(run, "world_state", run.world_state)])
+def test_another_thread_is_refused(call):
+    run, inside, refused = Run(SWIMMER, POOL, seed=4), threading.Event(), threading.Event()
+
+    def wait(_):
+        inside.set()
+        assert refused.wait(60)
+
+    advancing = threading.Thread(target=run.advance, args=(10,), kwargs={"each": wait})
+    advancing.start()
+    assert inside.wait(60)
+    with pytest.raises(RuntimeError, match="must not be called while another thread's call is going on; give each"):
+        call(run)
+    refused.set()
+    advancing.join()
+    call(run)
 
 
 KILLED = """

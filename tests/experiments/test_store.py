@@ -17,6 +17,7 @@ from same import alone
 from neorl import Condition, Learning, Policy, WaterWorld, kernel, place_cells, simulate, sweep
 from neorl.custom import softmax
 from neorl.common import files
+from neorl.common.array_files import open_arrays, write_arrays
 from neorl.experiments import condition as conditions
 from neorl.experiments import simulation, store
 from neorl.experiments.bins import new_bins
@@ -101,7 +102,7 @@ def test_a_damaged_file_is_noticed_and_computed_again(cache_folder, lived, damag
     {"rewards": np.zeros((2, 50), np.float32), "hits": np.zeros((2, 50, 2), np.int16)}],
     ids=["fields", "numbers", "runs"])
 def test_a_whole_file_of_another_version_is_no_result(cache_folder, lived, arrays):
-    files.write_arrays(cache_folder / "runs" / f"{SHORT.key}-{16 * 'f'}", "runs", {}, {"runs": np.arange(3)} | arrays)
+    write_arrays(cache_folder / "runs" / f"{SHORT.key}-{16 * 'f'}", "runs", {}, {"runs": np.arange(3)} | arrays)
     assert_whole(once(SHORT), SHORT)
     assert lived == [0, 1, 2]
 
@@ -198,7 +199,8 @@ def damaged(cache_folder):
     found = []
     for path in (cache_folder / "runs").glob("[!.]*"):
         try:
-            files.read_arrays(path, "runs")
+            with open_arrays(path, "runs") as file:
+                file.read(file.shapes)
         except ValueError:
             found.append(path)
     return found
