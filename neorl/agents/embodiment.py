@@ -65,6 +65,7 @@ def choices_in(agent, world):
     return {
         "size": float(world.size), "own_cell_counts": agent.own_cell == "counts",
         "shared_cell_counts_once": agent.shared_cell == "once", "notices_resets": agent.resets == "noticed",
+        "learns": True,
         "push": np.array(actions.pushes, float), "frames": frames,
         "nodes": nodes, "order": [names.index(name) for name in agent.evaluation_order],
         "desires": [_desire(agent, world, desire, names) for desire in agent.desires],

@@ -4,6 +4,7 @@ Parameters, state and values are read-only views. A saved file holds the state (
 its world as plain data (`neorl.description`), and the digests of the user's code in them (`neorl.worlds.former`).
 """
 
+from dataclasses import replace
 from os import PathLike
 from types import SimpleNamespace
 from typing import Any, NamedTuple, Self
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl.agents import keeping
-from neorl.agents.agent import Agent
+from neorl.agents.agent import Agent, Desire, Place
 from neorl.agents.embodiment import embodied, loop_of, own_axes
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
 from neorl.common import checks
@@ -75,6 +76,19 @@ class Individual:
         return self._world
 
     @property
+    def learns(self) -> bool:
+        """Whether it learns, True at first; may be set. Without learning it acts by what it knows.
+
+        What it does meanwhile is not remembered. Raises ValueError for anything but True and False.
+        """
+        return bool(self._record["learns"])
+
+    @learns.setter
+    def learns(self, value):
+        self._alone.check("learns", called_back=True)
+        self._record["learns"] = checks.flag("learns", value)
+
+    @property
     def state(self) -> SimpleNamespace:
         """The fields of the agent's record (`neorl.core.layout`), as read-only views; of tables, the rows in use.
 
@@ -103,9 +117,12 @@ class Individual:
 
     def output(self, name: str) -> Output:
         """The `Output` of the node called `name`. Raises ValueError if there is none."""
+        return self._output(name, self._record)
+
+    def _output(self, name, record):
         checks.one_of("name", name, tuple(node.name for node in self.agent.nodes))
         inputs = [e for e, desire in enumerate(self.agent.desires) if desire.target == name]
-        desires = self._record["desires"][inputs]
+        desires = record["desires"][inputs]
         q, valence = desires["q"], desires["total_valence"]
         vectors = as_vectors(q, self.world.actions)
         return Output(q.sum(axis=0), np.sign(valence) @ vectors, float(valence.sum()))
@@ -138,6 +155,24 @@ class Individual:
         keeping.continue_as(self.agent, self._record, self._memory, agent, record, memory)
         vars(self).update(_agent=agent, _record=record, _memory=memory)  # at once, even if interrupted
         self._bind()
+
+    def want(self, *sources: Any, valence: float = 1.0) -> None:
+        """Desire these things alone from now on, in every node that can: `change` without other nodes.
+
+        sources: kinds of things, `Place`s, and places as the scenes have them, (axes,), in the world's units. valence:
+        a number. Raises ValueError for anything else, and if no node can desire one of them.
+
+        >>> run = neorl.Run(neorl.place_cells([5]), neorl.WaterWorld())
+        >>> run.want("green", (50.0, 200.0))
+        """
+        sources = [each if isinstance(each, str | Place) else Place(*(
+            checks.real("sources", number) / self.world.size for number in checks.several("sources", each)))
+            for each in sources]
+        nodes = [node.name for node in self.agent.nodes if node.modality.takes_places]
+        if sources and not nodes:
+            raise ValueError("an agent must have a node of places or of things to want one, but has none: give its "
+                             "desires for points by change()")
+        self.change(replace(self.agent, desires=[Desire(each, node, valence) for each in sources for node in nodes]))
 
     def transfer(self, other: "Individual") -> None:
         """Copy the values of another `Learner` or `Run`, and the range of goals that its cells have learned about.

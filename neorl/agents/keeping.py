@@ -12,7 +12,7 @@ import numpy as np
 
 from neorl.agents.agent import LEARNED
 from neorl.common import checks
-from neorl.core.layout import ENTRIES, KEEPING, PART_OF, PLACES, TRACKS, VALUES, Memory, of_agent, of_desire
+from neorl.core.layout import DERIVED, ENTRIES, KEEPING, PART_OF, PLACES, TRACKS, VALUES, Memory, of_agent, of_desire
 from neorl.core.maps import NresMap
 from neorl.core.scene import ABSENT
 from neorl.kernels.annotations import arrays, fields
@@ -143,6 +143,12 @@ def _check_within(name, numbers, at_most, at_least=0):
     outside = (numbers < at_least) | (numbers > at_most)
     if np.any(outside):
         raise checks.error(name, f"integers from {at_least} to {np.max(at_most)}", np.asarray(numbers)[outside].flat[0])
+
+
+def own_tracks(memory):
+    """The memory of a double of an agent, which has the same values, and tracks of its own that have not begun."""
+    return memory._replace(**{name: np.zeros_like(getattr(memory, name)) for name, keeping in KEEPING.items()
+                              if keeping not in (VALUES, DERIVED)})
 
 
 def _kept(*keepings):

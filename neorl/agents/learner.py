@@ -1,26 +1,35 @@
 """An agent in the user's own loop, step by step. Scenes are validated before they reach the kernels."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from neorl.agents.agent import Agent
-from neorl.agents.embodiment import loop_of
-from neorl.agents.individual import Individual
+from neorl.agents.embodiment import loop_of, own_axes
+from neorl.agents.individual import Individual, Output
+from neorl.agents.keeping import own_tracks
 from neorl.agents.memory import kept_apart
+from neorl.agents.recording import BEGINS, JUMPS, Watching, check_places, nearest_action, recorded, watch
+from neorl.agents.scenes import Offer, accept, offer
 from neorl.common import checks
 from neorl.common.checks import LARGEST
+from neorl.common.progress import progress_bar
+from neorl.core import loop
+from neorl.core.coordinates import check_faults
 from neorl.core.functions import Loop
 from neorl.core.layout import Memory, Record
 from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
 from neorl.core.stream import new_stream
 from neorl.kernels.annotations import mapped, new_tuple, tabled
-from neorl.kernels.execution import bound
+from neorl.kernels.execution import bound, execute, in_table
 from neorl.kernels.kernel import kernel
 
 UNBORN = "before the first scene"
+OF_NUMBERS = f"of finite numbers from {-LARGEST:g} to {LARGEST:g}"
+SLICE = 20_000  # steps watched between two checks for an interruption
 
 
 @dataclass(frozen=True)
@@ -78,6 +87,7 @@ class Learner(Individual):
         return cls(agent, world.things, world.kinds, world.actions, 0, world.size, world.fps)
 
     def _bind(self):
+        self._double = None  # made when it is first asked for
         self._offered = mapped(np.copy, self._scene)
         here = Here(self._record, self._memory, self._scene, loop_of(self.agent))
         self._calls = [bound(each, here) for each in (begin, act, observe)]
@@ -115,7 +125,7 @@ class Learner(Individual):
             self._check_faults()
             return action
 
-    def observe(self, scene: Any, reward: float = 0.0) -> None:
+    def observe(self, scene: Any, reward: float = 0.0, action: ArrayLike | None = None) -> None:
         """Perceive the outcome of the last action, and learn from it.
 
         scene: a `neorl.Scene` of numbers, or anything with its fields: position and velocity, (axes,), a velocity of
@@ -123,19 +133,134 @@ class Learner(Individual):
             kind, or None while it is absent; met, for each whether it was met in this step, () if none was. A thing
             that was met may have moved, changed its kind or vanished: its slot then holds a new thing.
         reward: of the action, a finite number, from which desires with learned valence learn.
+        action: what was done, if that was not chosen by `act`, or not as it was chosen: the number of an action, or a
+            push, (axes,), which counts for the action with the nearest direction.
 
         Raises ValueError for a scene that does not fit or is not finite, and for a kernel of an axis or of the credit
-        that has returned NaN; RuntimeError unless the agent has acted.
+        that has returned NaN; RuntimeError unless the agent has acted, or `action` says what was done instead.
         """
         with self._alone.call("observe"):
-            if self._progress != "twice":
-                raise RuntimeError("observe(scene) must follow act(), but came before it")
+            if self._progress != "twice" and (action is None or not self._has_begun):
+                raise RuntimeError(f"observe(scene) must follow {'begin' if action is not None else 'act'}(), but came "
+                                   "before it")
             reward = checks.real("reward", reward)
+            action = self._record["last_event"] if action is None else self._number_of(action)
             self._take(scene)
-            self._record["reward"] = reward
+            self._record["reward"], self._record["last_event"] = reward, action
             self._calls[2]()
             self._progress = "to act"
             self._check_faults()
+
+    def watch(self, positions: ArrayLike | Sequence[Any], actions: ArrayLike | None = None, *, ends: ArrayLike = (),
+              rewards: ArrayLike | None = None, progress: bool | Callable[[int, int], object] = True) -> int:
+        """Learn from a recording of what somebody did; returns the number of steps learned from.
+
+        It learns in each step what `observe` with this action would teach it. A call whose first position is where the
+        learner is goes on from there; any other begins a new stretch, as `begin` does.
+
+        positions: (steps + 1, axes), in the world's units, of an agent that is at rest in a world without things; or a
+            sequence of scenes, each as `observe` takes it. A position with NaN, where the animal was lost, ends a
+            stretch.
+        actions: (steps,), the numbers of the actions between them; or (steps, axes), pushes, such as velocities, each
+            of which counts for the action with the nearest direction; or None: the displacements. A push of 0, and the
+            number of actions, stand for none.
+        ends: the indices of the positions after which the recording jumps, as between trials; or a truth value for each
+            position or for each step.
+        rewards: (steps,), from which desires with learned valence learn; None stands for 0.
+        progress: as in `neorl.simulate`.
+
+        After an interruption it has learned from what came before. Raises ValueError for anything else: for positions
+        beyond the agent's maps of places, for numbers that are not finite, and for a kernel of the user's that has
+        returned NaN.
+
+        >>> learner = neorl.Learner(neorl.Agent([neorl.Node("PC", neorl.modality.PLACE_CELL, [9])]))
+        >>> path = np.cumsum(np.random.default_rng(0).normal(0, 0.01, (5_000, 2)), axis=0) % 1.0
+        >>> steps = learner.watch(path, ends=np.abs(np.diff(path, axis=0)).max(axis=1) > 0.5)
+        """
+        with self._alone.call("watch"):
+            scenes = self._scenes(positions)
+            here = self._progress == "to act" and bool(np.all(scenes.position[0] == self._scene.position)) and bool(
+                np.all(scenes.things[0] == self._scene.things))
+            jump = BEGINS if self.agent.resets == "noticed" else JUMPS
+            recording = recorded(scenes, actions, rewards, ends, self.world.actions, jump)
+            rows = len(recording.row)
+            if not self._has_begun:
+                recording.row[:1] = BEGINS
+            watching = in_table(Watching(self._record, self._memory, self._scene, loop_of(self.agent), Offer(
+                len(self.world.kinds), self._offered), recording), self._record.dtype)
+            with progress_bar(rows, "watching", progress) as bar:
+                for first in range(int(here), rows, SLICE):
+                    end = min(first + SLICE, rows)
+                    execute(watch, watching, first, end)
+                    self._progress = "to act"
+                    self._check_faults()
+                    bar.update(end - first)
+            return int(np.sum(recording.row[int(here):] == 0))
+
+    def output(self, name: str, scene: Any = None, *, normalised: bool = False) -> Output:
+        """The `Output` of a node, at the last choice that was not exploratory, or in a scene, without acting in it.
+
+        name: of the node. scene: as in `observe`; recursion uses the desires of the last choice. normalised: scale the
+        desire vector so that its largest component is 1, if any differs from 0.
+        Raises ValueError for anything else.
+
+        >>> learner.want((0.8, 0.8))
+        >>> push = learner.output("PC", neorl.Scene((0.2, 0.2)), normalised=True).desire
+        """
+        checks.flag("normalised", normalised)
+        found = self._output(name, self._record if scene is None else self._imagined(scene))
+        longest = np.abs(found.desire).max(initial=0.0)
+        return found._replace(desire=found.desire / longest) if normalised and longest > 0.0 else found
+
+    def _imagined(self, scene):
+        """The record of a double of the agent that has evaluated its desires in a scene."""
+        with self._alone.call("output"):
+            if self._double is None:
+                there, double = mapped(np.copy, self._scene), self._record.copy()
+                imagining = Imagining(self._record, double, own_tracks(self._memory), there, loop_of(self.agent))
+                self._double = double, bound(imagine, imagining), bound(accept, Offer(
+                    len(self.world.kinds), self._offered), there)
+            double, evaluate_there, accept_there = self._double
+            self._offer(scene)
+            if not accept_there():
+                raise checks.error("scene", OF_NUMBERS, scene)
+            double[...] = self._record
+            evaluate_there()
+            check_faults(double["faults"], own_axes(self.agent))
+            return double
+
+    def _number_of(self, action):
+        """The number of an action, given by its number or by a push."""
+        push = checks.as_array("action", action)
+        if push.shape == (self.world.actions.axes,) and push.dtype.kind in "fiub":
+            return int(nearest_action(checks.doubles("action", push), self.world.actions))
+        return checks.integer("action", action, 0, len(self.world.actions.names))
+
+    def _scenes(self, positions):
+        """A `Scene` of arrays with a row for each position or scene."""
+        n_axes, things = self.world.actions.axes, self.world.things
+        is_of_scenes = not isinstance(positions, np.ndarray) and isinstance(positions, Sequence) and any(
+            hasattr(each, "position") for each in positions[:1])
+        if is_of_scenes:
+            rows = []
+            for each in positions:
+                self._offer(each)
+                rows.append([np.copy(values) for values in self._offered])
+            scenes = Scene(*map(np.array, zip(*rows)))
+        else:
+            array = checks.as_array("positions", positions)
+            if array.ndim != 2 or array.shape[1] != n_axes or not len(array) or array.dtype.kind not in "fiub":
+                raise ValueError(f"positions must be numbers of the shape (steps + 1, {n_axes}), a row for each time "
+                                 f"without the time itself, but are {array.dtype} of the shape {array.shape}")
+            scenes = Scene(array.astype(float), np.zeros((len(array), n_axes)), np.zeros((len(array), things, n_axes)),
+                           np.full((len(array), things), ABSENT), np.zeros((len(array), things), np.int64))
+        seen = ~np.isnan(scenes.position).any(axis=1)
+        present = seen[:, np.newaxis] & (scenes.kinds >= 0)
+        for name, values in (("positions", scenes.position[seen]), ("velocities", scenes.velocity[seen]),
+                             ("things", scenes.things[present])):
+            checks.finite(name, values)
+        check_places(scenes.position, self.agent, self.world.size)
+        return scenes
 
     def _checked_progress(self, progress):
         return checks.one_of("progress", progress, (UNBORN, "to act", "twice"))
@@ -150,32 +275,12 @@ class Learner(Individual):
 
     def _take(self, scene):
         """Check a scene, and copy it."""
-        try:
-            position, velocity, things, kinds, met = (scene.position, scene.velocity, scene.things, scene.kinds,
-                                                      scene.met)
-        except AttributeError:
-            raise checks.error("scene", "a neorl.Scene, or have its fields", scene) from None
-        offered = self._offered
-        _put("position", offered.position, position)
-        if velocity is None:
-            offered.velocity[:] = 0.0
-        else:
-            _put("velocity", offered.velocity, velocity)
-        if self.world.things or not _is_empty(things):
-            _put("things", offered.things, things)
-            try:
-                if len(kinds) != len(offered.kinds):  # which may be too many to iterate over
-                    raise TypeError
-                offered.kinds[:] = [self._numbers[each] for each in kinds]
-            except (KeyError, TypeError, OverflowError):
-                raise checks.error("scene.kinds", f"a list of {len(offered.kinds)}, each "
-                                   f"{checks.either(self._numbers)}", kinds) from None
-            if _is_empty(met):
-                offered.met[:] = 0
-            else:
-                _put("met", offered.met, met)
+        self._offer(scene)
         if not self._accept():
-            raise checks.error("scene", f"of finite numbers from {-LARGEST:g} to {LARGEST:g}", scene)
+            raise checks.error("scene", OF_NUMBERS, scene)
+
+    def _offer(self, scene):
+        offer(self._offered, scene, self._numbers, self.world.things)
 
 
 @tabled
@@ -206,47 +311,18 @@ def observe(here: Here) -> None:
     here.loop.observe(here.agent, here.memory, here.scene, here.loop.functions)
 
 
-class Offer(NamedTuple):
-    """A scene to be validated."""
+@tabled
+class Imagining(NamedTuple):
+    """An agent, and a double of it with tracks of its own in another scene."""
 
-    n_kinds: int
+    agent: Record
+    double: Record
+    memory: Memory
     scene: Scene
+    loop: Loop
 
 
 @kernel
-def accept(offer: Offer, scene: Scene) -> bool:
-    """Copy a scene if its numbers are finite, except those of absent things; returns whether they are."""
-    offered = offer.scene
-    for axis in range(offered.position.shape[0]):
-        if not (abs(offered.position[axis]) <= LARGEST and abs(offered.velocity[axis]) <= LARGEST):
-            return False
-    for thing in range(offered.kinds.shape[0]):
-        for axis in range(offered.position.shape[0]):
-            if offered.kinds[thing] < 0:
-                offered.things[thing, axis] = 0.0
-            elif not abs(offered.things[thing, axis]) <= LARGEST:
-                return False
-    for axis in range(offered.position.shape[0]):
-        scene.position[axis], scene.velocity[axis] = offered.position[axis], offered.velocity[axis]
-    for thing in range(offered.kinds.shape[0]):
-        for axis in range(offered.position.shape[0]):
-            scene.things[thing, axis] = offered.things[thing, axis]
-        was = max(scene.kinds[thing], 0)  # the kind as last seen
-        scene.met[thing] = 1 + was if offered.met[thing] != 0 else 0
-        scene.kinds[thing] = offered.kinds[thing]
-    return True
-
-
-def _is_empty(given):
-    return given.size == 0 if isinstance(given, np.ndarray) else isinstance(given, tuple | list) and not given
-
-
-def _put(name, mine, given):
-    values = checks.as_array(f"scene.{name}", given)
-    if values.shape != mine.shape or values.dtype.kind not in "fiub":
-        raise checks.error(f"scene.{name}", f"numbers of the shape {mine.shape}", given)
-    if values.dtype.itemsize > 8:
-        values = checks.doubles(f"scene.{name}", values)  # so that no number is truncated
-    if mine.dtype.kind == "i" and values.dtype.kind in "fu":
-        values = checks.doubles(f"scene.{name}", values) != 0
-    mine[...] = values
+def imagine(imagining: Imagining) -> None:
+    """Evaluate the desires of the double."""
+    loop.imagine(imagining.agent, imagining.double, imagining.memory, imagining.scene, imagining.loop.functions)

@@ -5,7 +5,6 @@ from neorl.core.choices import MapState, Vector
 from neorl.core.functions import AgentFunctions
 from neorl.core.geometry import cell_within, locate
 from neorl.core.layout import Memory, Record
-from neorl.core.network import evaluate
 from neorl.core.scene import HALF_SECOND, Scene
 from neorl.kernels.annotations import array
 from neorl.kernels.kernel import kernel
@@ -22,13 +21,7 @@ def survey(agent: Record, double: Record, memory: Memory, there: Scene, function
     for tile in range(side * side):
         there.position[0] = (tile % side + 0.5) / side * agent.size
         there.position[1] = (tile // side + 0.5) / side * agent.size
-        loop.begin(double, memory, there, functions)
-        for e in range(agent.n_desires):  # recursion uses the agent's own of the previous step
-            double.desires[e].total_valence = agent.desires[e].total_valence
-            double.desires[e].worth = agent.desires[e].worth
-            for action in range(agent.action_value.shape[0]):
-                double.desires[e].q[action] = agent.desires[e].q[action]
-        evaluate(double, memory, there, functions)
+        loop.imagine(agent, double, memory, there, functions)
         for action in range(agent.action_value.shape[0]):
             values[tile, action] = double.action_value[action]
 

@@ -143,7 +143,7 @@ def observe_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunc
     met, absent = scene.met[point] != 0, scene.kinds[point] < 0
     locate(agent, memory, scene, user, node, point, False)
     frame = seen_cells(agent, memory, node)
-    if event < agent.rates.shape[0] and first.cell >= 0 and (met or not absent):
+    if agent.learns and event < agent.rates.shape[0] and first.cell >= 0 and (met or not absent):
         approach, fear = 1.0, 1.0
         if not met:
             approach, fear = 0.0, np.inf
@@ -156,7 +156,7 @@ def observe_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunc
             for m in range(node.first_map, node.end_map):
                 remember_back(contacts, memory, agent.maps[m].first_track + point)
     follow(agent, memory, node, point, frame, absent)
-    if met or absent:
+    if met or absent or not agent.learns:
         forget_left(agent, memory, node, point)
 
 

@@ -35,9 +35,12 @@ def observe_self(agent: Record, memory: Memory, scene: Scene, user: UserFunction
         if starts or memory.tracks[t].cell < 0:
             start_self(agent, memory, nres, point, centre_cell(scene, node, nres, point))
         elif has_left_centre(agent, memory, nres, point):
-            cell = cell_within(agent, memory, node, nres, agent.offset)
-            learn_displacement(agent, memory, user, node, nres, point, cell)
-            enter(memory, t, nres.contact)
+            if agent.learns:
+                cell = cell_within(agent, memory, node, nres, agent.offset)
+                learn_displacement(agent, memory, user, node, nres, point, cell)
+                enter(memory, t, nres.contact)
+            else:
+                start_self(agent, memory, nres, point, nres.contact)
 
 
 @kernel

@@ -125,7 +125,8 @@ def of_agent(actions=1):
         ("activity", SINGLE, actions),  # of each event
         ("action_value", REAL, actions),  # at the last choice that was not random
         ("stream", INDEX, 4),  # the random numbers of the policy
-        ("evaluation", INT))  # the number of evaluations of desires
+        ("evaluation", INT),  # the number of evaluations of desires
+        ("learns", FLAG))
 
 
 @functools.cache

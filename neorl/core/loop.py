@@ -12,6 +12,7 @@
    agent as seen from each thing has a track, which starts afresh when that thing is met. A transition is then that the
    agent leaves the centre of the map, see `neorl.core.displacement`.
 7. A node whose only goals are contacts learns by its own rules, see `neorl.core.contacts`.
+8. An agent that does not learn follows all points as ever. What it passes then is not remembered.
 
 In `notebooks/companion/one_file.py`, this is the loop of `simulate`, `perceive` in section 4, and
 `learn_transition` in section 5. `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
@@ -23,7 +24,7 @@ from neorl.core.geometry import cell_within, contact_cell, locate, with_kept_dir
 from neorl.core.layout import Memory, Record
 from neorl.core.learning import (UNIT, ZERO, enter, learn_all_goals, learn_one_goal, order_of, rate_events, rule_of,
                                  values_of)
-from neorl.core.network import choose, learn_worth
+from neorl.core.network import choose, evaluate, learn_worth
 from neorl.core.scene import ABSENT, Scene
 from neorl.core.trace import fade, forget_all, join, learn_remembered, trace_of
 from neorl.kernels.kernel import inlined_kernel, kernel
@@ -31,22 +32,15 @@ from neorl.kernels.kernel import inlined_kernel, kernel
 
 @kernel
 def act(agent: Record, memory: Memory, scene: Scene, functions: AgentFunctions) -> int:
-    """Choose an action, and record it as an event in the active cell of every track."""
-    action = choose(agent, memory, scene, functions)
-    for t in range(memory.events.shape[0]):
-        memory.events[t, action] += 1
-    agent.last_event = action
-    learning = agent.learning
-    if learning.credit == Credit.activity or learning.credit == Credit.own:
-        for event in range(agent.activity.shape[0]):
-            agent.activity[event] *= learning.activity_retained
-            agent.activity[event] += UNIT - learning.activity_retained if event == action else ZERO
-    return action
+    """Choose an action."""
+    agent.last_event = choose(agent, memory, scene, functions)
+    return agent.last_event
 
 
 @kernel
 def observe(agent: Record, memory: Memory, scene: Scene, functions: AgentFunctions) -> None:
-    """Perceive the outcome of an action, and learn from it."""
+    """Perceive the outcome of the last action, and learn from it."""
+    take(agent, memory)
     for n in range(agent.n_nodes):
         node = agent.nodes[n]
         for point in range(node.points):
@@ -57,6 +51,18 @@ def observe(agent: Record, memory: Memory, scene: Scene, functions: AgentFunctio
             else:
                 perceive(agent, memory, scene, functions.user, node, point)
     learn_worth(agent, scene)
+
+
+@inlined_kernel
+def take(agent, memory):
+    """Record the last action as an event in the active cell of every track."""
+    action, learning = agent.last_event, agent.learning
+    for t in range(memory.events.shape[0]):
+        memory.events[t, action] += 1
+    if learning.credit == Credit.activity or learning.credit == Credit.own:
+        for event in range(agent.activity.shape[0]):
+            agent.activity[event] *= learning.activity_retained
+            agent.activity[event] += UNIT - learning.activity_retained if event == action else ZERO
 
 
 @inlined_kernel
@@ -77,8 +83,11 @@ def perceive(agent, memory, scene, user, node, point):
         arrives = met and cell_tm1 >= 0
         cell_t = contact_cell(nres, cell_tm1) if arrives else cell
         if (arrives or not ends) and (cell_t != cell_tm1 or agent.learning.update_on == UpdateOn.step):
-            learn_transition(agent, memory, user, nres, point, cell_t)
-            enter(memory, t, cell_t)
+            if agent.learns:
+                learn_transition(agent, memory, user, nres, point, cell_t)
+                enter(memory, t, cell_t)
+            else:
+                start_track(agent, memory, nres, point, cell_t)
         if ends:
             start_track(agent, memory, nres, point, cell)
 
@@ -128,6 +137,21 @@ def begin(agent: Record, memory: Memory, scene: Scene, functions: AgentFunctions
         desire.total_valence = 0.0
         for action in range(desire.q.shape[0]):
             desire.q[action] = 0.0
+
+
+@kernel
+def imagine(agent: Record, double: Record, memory: Memory, there: Scene, functions: AgentFunctions) -> None:
+    """Evaluate the desires of an agent as if it were in another scene, into those of its double.
+
+    double, memory: those of the agent, with tracks of their own.
+    """
+    begin(double, memory, there, functions)
+    for e in range(agent.n_desires):  # recursion uses the agent's own of the last choice
+        double.desires[e].total_valence = agent.desires[e].total_valence
+        double.desires[e].worth = agent.desires[e].worth
+        for action in range(agent.action_value.shape[0]):
+            double.desires[e].q[action] = agent.desires[e].q[action]
+    evaluate(double, memory, there, functions)
 
 
 @inlined_kernel

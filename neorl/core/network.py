@@ -232,6 +232,8 @@ def learn_worth(agent, scene):
     1 / n for the n-th meeting, or a tenth if that is higher. All desires that learn the worth of a kind have one.
     """
     # V_k ← V_k + max(1 / n_k, 0.1) (r − Σ V), summed over the things met
+    if not agent.learns:
+        return
     surprise = agent.reward
     for e in range(agent.n_desires):
         desire = agent.desires[e]
