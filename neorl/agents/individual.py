@@ -165,14 +165,14 @@ class Individual:
         >>> run = neorl.Run(neorl.place_cells([5]), neorl.WaterWorld())
         >>> run.want("green", (50.0, 200.0))
         """
-        sources = [each if isinstance(each, str | Place) else Place(*(
+        wanted = [each if isinstance(each, str | Place) else Place(*(
             checks.real("sources", number) / self.world.size for number in checks.several("sources", each)))
             for each in sources]
         nodes = [node.name for node in self.agent.nodes if node.modality.takes_places]
-        if sources and not nodes:
+        if wanted and not nodes:
             raise ValueError("an agent must have a node of places or of things to want one, but has none: give its "
                              "desires for points by change()")
-        self.change(replace(self.agent, desires=[Desire(each, node, valence) for each in sources for node in nodes]))
+        self.change(replace(self.agent, desires=[Desire(each, node, valence) for each in wanted for node in nodes]))
 
     def transfer(self, other: "Individual") -> None:
         """Copy the values of another `Learner` or `Run`, and the range of goals that its cells have learned about.

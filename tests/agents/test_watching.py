@@ -140,7 +140,8 @@ def test_a_push_counts_for_the_action_with_the_nearest_direction(actions):
     (walk()[0], np.full(1_500, 0.5), {}, "actions must be numbers of actions from 0 to 4"),
     (walk()[0], np.full((1_500, 2), np.nan), {}, "must be finite .* 1,500 of 1,500 are not, first that of step 0: end"),
     (walk()[0], None, {"ends": [1_501]}, "ends must be indices of positions, from 0 to 1500"),
-    (walk()[0], None, {"ends": [0.5]}, "ends must be indices"), (walk()[0], None, {"rewards": [1.0]}, "rewards must be n"),
+    (walk()[0], None, {"ends": [0.5]}, "ends must be indices"),
+    (walk()[0], None, {"rewards": [1.0]}, "rewards must be numbers of the shape"),
     ("a path", None, {}, "positions must be"), ([Scene((0.1, 0.1)), "here"], None, {}, "scene must be a neorl.Scene")])
 def test_what_is_no_recording_is_refused_and_teaches_nothing(positions, actions, more, message):
     learner = Learner(PLACES)
