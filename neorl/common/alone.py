@@ -15,6 +15,9 @@ class Alone:
     def __init__(self, remedy: str) -> None:
         self._lock, self._thread, self._remedy = threading.Lock(), 0, remedy
 
+    def __reduce__(self):  # in a copy, no call is going on
+        return Alone, (self._remedy,)
+
     @contextlib.contextmanager
     def call(self, what: str) -> Iterator[None]:
         """Within this context, every other call is refused. Raises RuntimeError if one is going on."""

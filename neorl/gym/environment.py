@@ -28,8 +28,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl.common import checks
+from neorl.common.alone import Alone
 from neorl.common.extras import require
-from neorl.gym.vector import VectorWorldEnv
+from neorl.gym.vector import REMEDY, VectorWorldEnv
 from neorl.worlds.world import World
 
 gymnasium = require("gymnasium", extra="gym")
@@ -55,7 +56,7 @@ class WorldEnv(gymnasium.Env):
         self.metadata = {**self.metadata, "render_fps": self.world.fps}
         self.observation_space = self._envs.single_observation_space
         self.action_space = self._envs.single_action_space
-        self._over = True
+        self._over, self._alone = True, Alone(REMEDY)
 
     @property
     def world_state(self) -> Any:
@@ -69,26 +70,29 @@ class WorldEnv(gymnasium.Env):
         seed: an integer ≥ 0, or None to continue the random stream. options: None, or {"run": k}, k ≥ 0, with a seed.
         Returns (observation: float32 (numbers,), info). Raises ValueError for anything else.
         """
-        self._envs.reset(seed=[seed], options=options)
-        super().reset(seed=None if seed is None else int(seed))
-        self._over = False
-        return self._returned()[::4]
+        with self._alone.call("reset"):
+            self._envs.reset(seed=[seed], options=options)
+            super().reset(seed=None if seed is None else int(seed))
+            self._over = False
+            return self._returned()[::4]
 
     def step(self, action: int) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Take an action.
 
         action: an integer in 0 … actions − 1.
         Returns (observation: float32 (numbers,), reward: float, terminated: bool, truncated: bool, info).
-        Raises ValueError for any other action, `gymnasium.error.ResetNeeded` before `reset` and after the end.
+        Raises ValueError for any other action, `gymnasium.error.ResetNeeded` before `reset` and after the end,
+        RuntimeError while another thread's call is going on.
         """
         if self._over:
             raise gymnasium.error.ResetNeeded("step() must follow reset(), but came before it, or after the end of an "
                                               "episode")
         action = checks.integer("action", action, at_least=0, at_most=int(self.action_space.n) - 1)
-        self._envs.advance(action)
-        returned = self._returned()
-        self._over = returned[2] or returned[3]
-        return returned
+        with self._alone.call("step"):
+            self._envs.advance(action)
+            returned = self._returned()
+            self._over = returned[2] or returned[3]
+            return returned
 
     def _returned(self):
         slots = self._envs.slots

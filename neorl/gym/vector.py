@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from neorl.agents.memory import read_only
 from neorl.common import checks
+from neorl.common.alone import Alone
 from neorl.common.extras import require
 from neorl.common.warn import warn
 from neorl.core.stream import new_stream
@@ -25,6 +26,7 @@ from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World, check_outcome, checked_rules
 
 gymnasium = require("gymnasium", extra="gym")
+REMEDY = "use another environment"  # instead of a call within a call
 MOST_NUMBERS = 2**28  # in the observations of all environments, 1 GiB
 
 
@@ -70,7 +72,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         sizes = {"environments": n, "numbers": numbers, "kinds": kinds, "things": world.things}
         self.slots = new_tuple(Slots, sizes, {})
         self.slots.terminal[:] = world.terminal or False
-        self._begun = False
+        self._begun, self._alone = False, Alone(REMEDY)
 
     @property
     def world_states(self) -> tuple[Any, ...]:
@@ -104,9 +106,10 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
                 for array in arrays(self._states).values():
                     array[row] = 0
                 self._states.stream[row] = new_stream(np.random.SeedSequence(each, spawn_key=(run,)))
-        self._rules, self._begun, self.slots.truncated[:] = checked_rules(self.world), True, True
-        self.advance(0)
-        return self.slots.observation.copy(), self._infos()
+        with self._alone.call("reset"):
+            self._rules, self._begun, self.slots.truncated[:] = checked_rules(self.world), True, True
+            self.advance(0)
+            return self.slots.observation.copy(), self._infos()
 
     def step(self, actions: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool],
                                                 NDArray[np.bool], dict[str, Any]]:
@@ -115,7 +118,8 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         actions: integers (num_envs,), each in 0 … actions − 1.
         Returns (observations: float32 (num_envs, numbers), rewards: float64 (num_envs,), terminated: bool (num_envs,),
         truncated: bool (num_envs,), infos).
-        Raises ValueError for other actions, `gymnasium.error.ResetNeeded` before `reset`.
+        Raises ValueError for other actions, `gymnasium.error.ResetNeeded` before `reset`, RuntimeError while another
+        thread's call is going on.
         """
         if not self._begun:
             raise gymnasium.error.ResetNeeded("step() must follow reset(), but came before it")
@@ -124,8 +128,9 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
                 or not 0 <= given.min() <= given.max() < self.single_action_space.n):
             raise checks.error("actions", f"integers ({self.num_envs},) from 0 to {self.single_action_space.n - 1}",
                                actions)
-        self.advance(given)
-        return *(each.copy() for each in self.slots[2:6]), self._infos()
+        with self._alone.call("step"):
+            self.advance(given)
+            return *(each.copy() for each in self.slots[2:6]), self._infos()
 
     def advance(self, actions):
         """`step` without its checks; the outcome is in `slots`."""

@@ -1,6 +1,8 @@
 """Worlds as Gymnasium environments pass Gymnasium's checks, and equal the worlds of runs to the bit."""
 
+import copy
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import gymnasium
 import numpy as np
@@ -13,7 +15,7 @@ from neorl import Agent, Run, Scene, WaterWorld, brownian, drawing
 from neorl.worlds import Arena
 from neorl.core.scene import ABSENT
 from neorl.drawing import AGENT
-from neorl.gym import WorldEnv
+from neorl.gym import VectorWorldEnv, WorldEnv
 from neorl.gym.observation import observe
 from neorl.kernels.annotations import mapped
 from neorl.kernels.execution import execute
@@ -209,3 +211,15 @@ def test_a_window_follows_every_step(monkeypatch):
     lived(other, random_actions(20), seed=0)
     np.testing.assert_array_equal(shown, other.render())
     env.close()
+
+
+@pytest.mark.parametrize("make", [lambda: WorldEnv(POOL), lambda: VectorWorldEnv(POOL, 2)])
+def test_an_environment_takes_one_call_at_a_time_and_a_copy_of_it_too(make):
+    env = make()
+    env.reset(seed=0)
+    with env._alone.call("step"), ThreadPoolExecutor(1) as other:
+        for call in (lambda: env.step(env.action_space.sample()), env.reset):
+            with pytest.raises(RuntimeError, match="must not be called while another thread's call is going on"):
+                other.submit(call).result()
+        copy.deepcopy(env).step(env.action_space.sample())
+    env.step(env.action_space.sample())
