@@ -45,7 +45,7 @@ def small(figure):
         x, y, width, height = (float(frame.get(each)) for each in ("x", "y", "width", "height"))
         root.set("viewBox", f"{x:g} {y:g} {width:g} {height:g}")
         root.attrib |= {"width": f"{width:g}pt", "height": f"{height:g}pt"}
-    for path in root.iter(f"{{{SVG}}}path"):
+    for path in root.iterfind(f".//{{{SVG}}}path[@d]"):  # one that draws nothing, as a band of one run, has none
         path.set("d", re.sub(r"\d+\.\d+", lambda number: f"{float(number[0]):.1f}", path.get("d")))
     ElementTree.register_namespace("", SVG)
     return ElementTree.tostring(root, encoding="unicode")

@@ -2,11 +2,13 @@
 
 import io
 import json
+import re
 import shutil
 from pathlib import Path
 
 from computing import excerpts
 import nbformat
+import numpy as np
 import pytest
 from computing.cells import LABEL, of_page
 from computing.excerpts import without_ground
@@ -92,6 +94,15 @@ def test_figures_are_saved_by_name_and_the_first_small_without_letters_too(tmp_p
     excerpts.save_figures(nbformat.v4.new_notebook(cells=cells), tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["fig-one-small.svg", "fig-one.svg", "fig-two.svg"]
     assert ['id="text_' in (tmp_path / f"fig-one{which}.svg").read_text() for which in ("", "-small")] == [True, False]
+
+
+def test_a_figure_whose_paths_draw_nothing_has_a_small_one():
+    plt.errorbar([0, 1], [1.0, 2.0], yerr=[np.nan, np.nan])  # as of one run
+    plt.savefig(drawn := io.StringIO(), format="svg")
+    whiskers, = re.findall(r'<g id="LineCollection_1">.*?</g>', drawn.getvalue(), re.DOTALL)
+    assert whiskers.count("<path") == 2 and " d=" not in whiskers
+    paths = re.findall("<path [^>]*", excerpts.small(drawn.getvalue()))
+    assert len([each for each in paths if " d=" not in each]) == 2 and any(' d="M ' in each for each in paths)
 
 
 def test_the_book_s_figures_have_no_ground_since_its_style_sheet_knows_the_page():
