@@ -39,13 +39,3 @@ class Grid:
     def marked(self, mark):
         """The states that a character marks, as a list of integers."""
         return [state for state, (x, y) in enumerate(self.places) if self.rows[y][x] == mark]
-
-    def transitions(self, slip):
-        """The probability of each next state, with random slips: float64 (states, 4, states)."""
-        probability = np.zeros((self.states, 4, self.states))
-        each = np.arange(self.states)
-        for action in range(4):
-            probability[each, action, self.next_state[:, action]] += 1 - slip
-            for direction in range(4):
-                probability[each, action, self.next_state[:, direction]] += slip / 4
-        return probability
