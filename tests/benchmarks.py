@@ -7,16 +7,24 @@ import numpy as np
 import pytest
 from explorer_page import write_page
 
-from companion.performance.bound import drawn_steps
 from neorl import Explorer, Run, WaterWorld, multimodal, place_cells, simulate
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
-from neorl.core.stream import new_stream
+from neorl.core.stream import new_stream, randint
 from neorl.kernels.execution import execute
 from neorl.kernels.kernel import kernel
+from neorl.worlds.waterworld import reset, step
 
 STEPS = 1_000_000
 RATES = np.float32(0.03) * np.array([0.4, 0.3, 0.2, 0.1], np.float32)
 DISCOUNT = np.float32(0.8)
+
+
+@kernel
+def drawn_steps(state, rules, stream, steps):
+    for _ in range(steps):
+        _, done = step(state, rules, randint(stream, 4))
+        if done:
+            reset(state, rules)
 
 
 @kernel

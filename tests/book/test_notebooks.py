@@ -134,6 +134,12 @@ def test_too_short_a_run_is_refused_where_there_would_be_nothing_to_draw():
         beginning.begin({"steps": 1_000}, runs=20, steps=999, seed=0)
 
 
+def test_the_values_of_the_finest_single_map_fit_into_memory():
+    beginning.begin(resolution=50)
+    with pytest.raises(ValueError, match="resolution must be an integer from 1 to 50, but is 51"):
+        beginning.begin(resolution=51)
+
+
 @pytest.mark.parametrize("given, wanted", [
     ([11, 5], (5, 11)), ("[11, 5]", (5, 11)), ("5, 11", (5, 11)), ("[]", ())])
 def test_a_list_may_be_a_text_and_is_sorted(given, wanted):

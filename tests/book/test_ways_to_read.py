@@ -41,13 +41,13 @@ OTHERS = {
     "paper_a": {"resolutions": [4, 12], "layers": [2, 3, 5, 7], "n_creeps": 20},
     "paper_b": {"resolutions": [3, 4], "n_creeps": 8, "place_gain": 100.0},
     "paper_c": {"n_creeps": 8, "recursion": 2.5, "resolutions": [3, 4]},
-    "performance": {"resolution": 50, "n_creeps": 20}, "your_research": {"resolutions": [2, 20]}}
+    "performance": {"steps": 3_000}, "your_research": {"resolutions": [2, 20]}}
 WAYS = "defaults", "twice", "below", "least", "others", "papermill", "suggested", "refused"
 MEASURED = {  # the cells that show measured times
     "agent_in_one_file": {"comparison"}, "alternatives": {"costs-table"}, "beyond_agents": {"e65b2d27"},
     "chapter_4": {"cell-45", "cell-46", "pace"}, "own_world": {"cell-13"},
     "chapter_5": {"cell-35", "claims-of-all"},
-    "performance": {"cell-08", "cell-09", "cell-13", "cell-18"}}
+    "performance": {"first", "learning", "fig"}}
 BAD = None, {}, float("nan")
 RESET = "get_ipython().reset(new_session=True)\n__spec__ = None"  # processes that are spawned look up the latter
 
@@ -62,7 +62,9 @@ class Page:
     def __init__(self, name, client):
         self.name, self.client, self.shown = name, client, {}
         cells = nbformat.read(NOTEBOOKS / f"{name}.ipynb", 4).cells
-        self.parameters, *self.cells = [cell for cell in cells if cell.cell_type == "code"]
+        code = [cell for cell in cells if cell.cell_type == "code"]
+        (first,) = [place for place, cell in enumerate(code) if "parameters" in tags(cell)]
+        self.parameters, *self.cells = code[first:]  # not the recorded answer
         self.names = set(re.findall(r"^(\w+): ", self.parameters.source, re.MULTILINE))
         self.small = SMALL | ALSO_SMALL.get(name, {})
 

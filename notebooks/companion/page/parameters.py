@@ -56,7 +56,7 @@ def _one_of(choices):
 RESOLUTION = _whole(1, FINEST)
 RULES = {
     "reading": _one_of(tuple(READINGS)), "runs": _whole(1), "steps": _whole(1), "seed": _whole(0),
-    "n": RESOLUTION, "resolution": _whole(1, 50),  # pages time copies of agents with such a map, of 0.1 GB each
+    "n": RESOLUTION, "resolution": _whole(1, 50),  # of the only map of a page's agents, of up to 0.1 GB
     "resolutions": partial(_list, each=RESOLUTION),
     "layers": partial(_list, each=RESOLUTION), "counts": partial(_list, each=_whole(1, 6)),
     "stays": partial(_list, each=_whole(1, 1_000)), "n_creeps": _whole(1, MOST_CREEPS),
