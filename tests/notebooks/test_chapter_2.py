@@ -5,7 +5,7 @@ import pytest
 from page_cells import executed
 
 from companion.chapter_2.tuning import (Trajectory, TuningCurve, egocentric, in_field, information,
-                                        information_in_spikes, lose_track, roam, spikes, tuning_curve)
+                                        information_in_spikes, roam, spikes, tuning_curve)
 from neorl import NresMap
 from neorl.core.direction import TAU
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, LANDMARK_VECTOR_CELL,
@@ -145,16 +145,6 @@ def test_an_object_cell_has_a_compact_field_in_its_own_frame_alone(page):
         assert cell == f"{own} cell" and share[other] > 3 * share[own]
         peak = np.unravel_index(np.nanargmax(frames[own]), frames[own].shape)
         np.testing.assert_allclose((np.array(peak) + 0.5) / 25 - 0.5, (0.2, -0.15), atol=0.06)
-
-
-def test_the_error_of_a_sum_grows_with_the_root_of_time_and_that_corrected_stays():
-    alone, corrected = np.stack([lose_track(1_000, [1, run]) for run in range(200)], axis=1)
-    assert alone.shape == (200, 1000) and np.all(alone[:, 0] == 0)
-    for second in (5, 20):
-        assert np.mean(alone[:, 50 * second - 1] ** 2) == pytest.approx(2 * 0.05**2 * second, rel=0.2)
-    assert corrected[:, -1].mean() < 0.7 * alone[:, -1].mean()
-    alone, corrected = lose_track(3_000, [0, 0], noise=0)
-    assert np.all(alone == 0) and 0 < corrected.max() <= np.hypot(0.05, 0.05)  # half its reach along each axis
 
 
 def test_the_gates_move_as_in_the_paper(page):

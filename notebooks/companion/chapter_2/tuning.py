@@ -179,24 +179,6 @@ def information_in_spikes(trains, trajectory, seed=0):
     return found
 
 
-def lose_track(steps, seed, noise=0.05, reach=0.1):
-    """The errors of path integration, by itself and with correction at walls: float64 (2, steps), in box widths.
-
-    An animal that knows where it begins roams the box and sums its displacements. Each second adds an error with the
-    standard deviation ``noise``, in box widths, to either coordinate. At most ``reach`` from a wall, a corrected
-    coordinate becomes that of the middle of this strip, as border cells would allow (Hardcastle et al. 2015).
-    """
-    walk = roam(steps, seed)
-    drift = np.random.default_rng([*seed, 1]).normal(0, noise * np.sqrt(walk.step), (steps, 2))
-    drift[0] = 0
-    error = np.cumsum(drift, axis=0)
-    low, high = walk.position < reach, walk.position > 1 - reach
-    latest = np.maximum.accumulate(np.where(low | high, np.arange(steps)[:, None], -1), axis=0)  # correction
-    off = np.where(low, reach / 2, 1 - reach / 2) - walk.position  # of a coordinate when it is corrected
-    since = error + np.take_along_axis(off - error, np.maximum(latest, 0), 0)
-    return np.linalg.norm([error, np.where(latest >= 0, since, error)], axis=2)
-
-
 def egocentric(vectors, heading):
     """Vectors (North, East) in the animal's frame (Forward, Starboard): float64 (…, 2)."""
     north, east = np.moveaxis(vectors, -1, 0)
