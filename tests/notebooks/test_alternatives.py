@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from page_cells import executed
 
-from companion.alternatives import contestants, controllers, living, search, tabular_learners
+from companion.alternatives import contestants, controllers, contests, search, tabular_learners
 from companion.alternatives.contestants import of_thesis
-from companion.alternatives.living import BOARDS, Earned
+from companion.alternatives.contests import BOARDS, Earned
 from companion.page import beginning
 from neorl import Run, WaterWorld, brownian, forager, place_cells, simulate
 from neorl.core.stream import new_stream
@@ -20,7 +20,7 @@ SETTINGS = search.best_settings()
 GAINS = SETTINGS["PD"]
 AGENTS = {"Brownian motion": brownian(), "forager": forager(),
           **of_thesis()}
-LONG = [row for row in living.read() if row.steps == 600_000]
+LONG = [row for row in contests.read() if row.steps == 600_000]
 
 
 def stream(number=0):
@@ -45,14 +45,14 @@ def act(contestant, state, memory=None):
 @pytest.mark.parametrize("name", tabular_learners.TABULAR)
 def test_a_run_is_the_same_among_any_number_of_runs_and_learns(name):
     contestant = tabular_learners.TABULAR[name](SETTINGS[name])
-    three = living.live(contestant, BOARDS[3], steps=150_000, runs=3, bins=3)
-    two = living.live(contestant, BOARDS[3], steps=150_000, runs=2, bins=3)
+    three = contests.run_contestant(contestant, BOARDS[3], steps=150_000, runs=3, bins=3)
+    two = contests.run_contestant(contestant, BOARDS[3], steps=150_000, runs=2, bins=3)
     assert np.array_equal(three.rewards[:2], two.rewards) and not np.array_equal(two.rewards[0], two.rewards[1])
     assert three.rewards[:, 2].mean() > three.rewards[:, 0].mean() > 0
 
 
-def test_contestants_live_in_the_worlds_of_runs():
-    lived = living.live(controllers.nearest_green(), BOARDS[3], steps=50, runs=1, bins=1, seed=5)
+def test_contestants_run_in_the_worlds_of_runs():
+    earned = contests.run_contestant(controllers.nearest_green(), BOARDS[3], steps=50, runs=1, bins=1, seed=5)
     state, total = Run(place_cells([1]), BOARDS[3], seed=5).world_state, 0.0
     for _ in range(50):
         action, _ = act(controllers.nearest_green(), state)
@@ -60,7 +60,7 @@ def test_contestants_live_in_the_worlds_of_runs():
         total += reward
         if done:
             execute(BOARDS[3].dynamics.reset, state, BOARDS[3].rules)
-    assert lived.rewards[0, 0] == total
+    assert earned.rewards[0, 0] == total
 
 
 def test_a_contact_teaches_the_head_of_its_creep_alone():
@@ -99,7 +99,7 @@ def test_the_planner_does_not_know_creeps_to_come_and_leaves_the_world_unchanged
 
 
 def test_controllers_that_know_more_earn_more():
-    rates = [living.live(each, BOARDS[3], steps=6_000, runs=4, bins=1).rewards.mean() / 120
+    rates = [contests.run_contestant(each, BOARDS[3], steps=6_000, runs=4, bins=1).rewards.mean() / 120
              for each in (controllers.nearest_green(), controllers.pd(GAINS), controllers.planner(GAINS))]
     assert 1.5 < rates[0] < rates[1] < rates[2] < 5
 
@@ -114,23 +114,24 @@ def test_the_stored_search_is_what_the_script_finds(method):
 @pytest.mark.parametrize("name, creeps", [("hybrid reward", 3), ("monolithic", 8)])
 def test_the_stored_long_runs_are_those_of_learners(name, creeps):
     row = next(row for row in LONG if row[:4] == (name, creeps, 600_000, 1))
-    earned = living.live(tabular_learners.TABULAR[name](SETTINGS[name]), BOARDS[creeps], steps=30_000, runs=2, bins=10)
+    contestant = tabular_learners.TABULAR[name](SETTINGS[name])
+    earned = contests.run_contestant(contestant, BOARDS[creeps], steps=30_000, runs=2, bins=10)
     assert np.array_equal(earned.rewards[1], row.rewards[:10])
     assert earned.kilobytes == pytest.approx(row.kilobytes, rel=1e-3)
 
 
 @pytest.mark.parametrize("name", AGENTS)
 def test_the_stored_long_runs_are_those_of_agents(name):
-    earned = living.of_result(simulate(AGENTS[name], BOARDS[3], steps=30_000, runs=10, progress=False), bins=10)
+    earned = contests.of_result(simulate(AGENTS[name], BOARDS[3], steps=30_000, runs=10, progress=False), bins=10)
     rows = [next(row for row in LONG if row[:4] == (name, 3, 600_000, run)) for run in range(10)]
     assert np.array_equal(earned.rewards, [row.rewards[:10] for row in rows])
     assert earned.kilobytes == pytest.approx(rows[0].kilobytes, rel=1e-3)
 
 
 def test_every_run_is_stored_once_and_deep_learners_have_three_long_ones_on_each_board():
-    rows = living.read()
+    rows = contests.read()
     assert len({(row.method, row.creeps, row.run) for row in rows}) == len(rows)
-    assert all(len(row.rewards) == row.steps // living.MINUTE for row in rows)
+    assert all(len(row.rewards) == row.steps // contests.MINUTE for row in rows)
     long = [row[:2] + row[3:4] for row in LONG if row.method in search.DEEP]
     assert set(long) == {*product(search.DEEP, (3, 8), range(3))}
 
@@ -138,9 +139,9 @@ def test_every_run_is_stored_once_and_deep_learners_have_three_long_ones_on_each
 @pytest.mark.deep
 @pytest.mark.parametrize("method", search.DEEP)
 def test_a_short_rerun_of_a_deep_learner_equals_the_start_of_its_stored_run(method):
-    from companion.alternatives.deep_runs import live
+    from companion.alternatives.deep_runs import train
     row = next(row for row in LONG if row[:4] == (method, 3, 600_000, 2))
-    rewards, _, _ = live(method, SETTINGS[method], 3, 6_000, 0, 2)
+    rewards, _, _ = train(method, SETTINGS[method], 3, 6_000, 0, 2)
     assert np.array_equal(rewards, row.rewards[:2])
 
 
@@ -188,12 +189,12 @@ def test_a_run_and_the_stored_ones_last_the_same_whole_minutes(tmp_path):
     page = executed("alternatives", steps=8_999, keep=str(tmp_path / "kept.csv"))
     steps = {name: each.steps for of_board in page.boards.values() for name, each in of_board.items()}
     assert {*steps.values()} == {200, 6_000} and [name for name in steps if steps[name] == 200] == ["planner"]
-    kept = living.read(tmp_path / "kept.csv")
+    kept = contests.read(tmp_path / "kept.csv")
     assert {len(row.rewards) for row in kept} == {2} and len(kept) == 2 * 2 * (6 + 4)
 
 
 def test_the_reward_of_a_minute_is_the_sum_of_its_parts():
-    each = Earned(np.arange(2.0 * living.bins_of(9_000)).reshape(2, -1), 9_000, 1e-6, 1.0)
+    each = Earned(np.arange(2.0 * contests.bins_of(9_000)).reshape(2, -1), 9_000, 1e-6, 1.0)
     assert each.rewards.shape == (2, 51) and each.of_minutes[0].tolist() == [sum(range(17)), sum(range(17, 34)),
                                                                             sum(range(34, 51))]
 

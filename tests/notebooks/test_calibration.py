@@ -21,7 +21,7 @@ from companion.thesis.statements import STATEMENTS
 from neorl.experiments.result import Result
 
 
-def lived(*rates, runs=4, steps=150_000, n_creeps=8):
+def result_of(*rates, runs=4, steps=150_000, n_creeps=8):
     """A `Result` in which every run earns these rates in turn, each over an equal stretch."""
     world = WaterWorld(n_creeps=n_creeps)
     bins = np.repeat(np.array(rates) * 0.2, steps // 10 // len(rates))
@@ -46,34 +46,34 @@ def test_targets_are_of_known_claims_and_each_belongs_to_one_group():
 
 
 def test_what_the_layers_earn_is_measured():
-    results = {("layer", 3): lived(0.0, 0.0), ("layer", 7): lived(0.1, 0.1), ("layer", 23): lived(0.0, 0.2),
-               "layers": lived(0.05, 0.35)}
+    results = {("layer", 3): result_of(0.0, 0.0), ("layer", 7): result_of(0.1, 0.1), ("layer", 23): result_of(0.0, 0.2),
+               "layers": result_of(0.05, 0.35)}
     found = {name: each.value for name, each in calibration_targets.measure("layers", results).items()}
     assert found == pytest.approx({"A7 ratio": 3.5, "A7 pace": -0.05, "A6 surplus": 0.05, "A6 pace": 0.0}, abs=1e-4)
 
 
 def test_agents_that_have_not_learned_are_in_no_order_and_their_ratio_is_no_success():
-    poor = {("layer", n): lived(0.001) for n in (3, 7, 23)} | {"layers": lived(0.0035)}
+    poor = {("layer", n): result_of(0.001) for n in (3, 7, 23)} | {"layers": result_of(0.0035)}
     assert calibration_targets.measure("layers", poor)["A7 ratio"].value == pytest.approx(0.0035 / 0.03, abs=1e-3)
-    found = calibration_targets.measure("networks", {("network", name): lived(0.0) for name in "ABCD"})
+    found = calibration_targets.measure("networks", {("network", name): result_of(0.0) for name in "ABCD"})
     assert [name for name, each in found.items() if TARGETS[name].holds(each.value)] == ["C1 weak"]
 
 
 def test_levels_and_minutes_of_the_modalities_are_measured():
     world = {"steps": 600_000, "n_creeps": 3}
-    slow = lived(*[0.05] * 9, 0.15, *[0.29] * 2, **world)
-    quick = lived(0.3, *[0.55] * 11, **world)
-    results = {("place", "all"): slow, ("objects", "all"): lived(0.29, **world), "both": quick}
+    slow = result_of(*[0.05] * 9, 0.15, *[0.29] * 2, **world)
+    quick = result_of(0.3, *[0.55] * 11, **world)
+    results = {("place", "all"): slow, ("objects", "all"): result_of(0.29, **world), "both": quick}
     found = {name: each.value for group in ("places", "objects", "both")
              for name, each in calibration_targets.measure(group, results).items()}
     assert found["B3 place"] == pytest.approx(0.25, abs=0.05) and found["B3 both"] == pytest.approx(0.55, abs=1e-4)
     assert 160 < found["B4 place"] <= 175 and 15 < found["B4 both"] < 25
-    flat = results | {("place", "all"): lived(0.05, **world)}
+    flat = results | {("place", "all"): result_of(0.05, **world)}
     assert calibration_targets.measure("places", flat)["B4 place"].value == 0
 
 
 def test_the_error_is_that_of_the_mean_over_runs():
-    result = lived(0.2, steps=600_000)
+    result = result_of(0.2, steps=600_000)
     rates = np.array([0.1, 0.2, 0.25, 0.45])
     varied = replace(result, rewards=(result.rewards / 0.2 * rates[:, None]).astype(np.float32))
     results = {("place", "all"): varied, ("objects", "all"): varied, "both": varied}

@@ -21,7 +21,7 @@ def few_resamples(monkeypatch):
         monkeypatch.setattr(f"{module}.RESAMPLES", 100)
 
 
-def lives(curve, runs=20, noise=0.02, world=EIGHT, steps=10_000):
+def result_of(curve, runs=20, noise=0.02, world=EIGHT, steps=10_000):
     """A result whose runs follow a curve (bins,) of reward per second, each offset by a little noise."""
     bins = len(curve)
     each = np.random.default_rng(0).normal(0, noise, (runs, 1))
@@ -32,18 +32,18 @@ def lives(curve, runs=20, noise=0.02, world=EIGHT, steps=10_000):
 def made_up(early, final=None, runs=20, learned_by=0.1):
     """Runs that earn `early` up to the share `learned_by` of the run, and `final` after it."""
     at = np.arange(1_000) / 1_000
-    return lives(np.where(at < learned_by, early, early if final is None else final), runs)
+    return result_of(np.where(at < learned_by, early, early if final is None else final), runs)
 
 
 def rising(early, final, runs=20, until=1.0):
     """Runs that earn `early` in the first tenth, then rise linearly to `final`, reached at the share `until`."""
     at = np.arange(1_000) / 1_000
-    return lives(early + (final - early) * np.clip((at - 0.1) / (until - 0.1), 0, 1), runs)
+    return result_of(early + (final - early) * np.clip((at - 0.1) / (until - 0.1), 0, 1), runs)
 
 
 def brownian(score=0.0, boards=0, runs=20):
     """Brownian motion that resets the board `boards` times per 150,000 steps, in runs of a fifteenth of that."""
-    result = lives(np.full(1_000, score), runs, noise=0.001)
+    result = result_of(np.full(1_000, score), runs, noise=0.001)
     hits = result.hits.copy()
     hits[:, 0, 0] = np.rint(result.totals) - 5 * np.round(boards / 15)
     rewards = np.zeros_like(result.rewards)
@@ -114,13 +114,13 @@ def test_results_unlike_the_papers_are_judged_otherwise(name, change, expected):
 @pytest.mark.usefixtures("few_resamples")
 @pytest.mark.parametrize("name, change, expected", [
     # A lead that no figure shows: it was enough.
-    ("A2", lambda single, *rest: ({**single, 90: lives(np.full(1_000, 0.005), noise=0.001)}, *rest), "partly"),
+    ("A2", lambda single, *rest: ({**single, 90: result_of(np.full(1_000, 0.005), noise=0.001)}, *rest), "partly"),
     # All maps rise to the end, as the thesis draws them: none counted, so that the claim was contradicted.
     ("A3", lambda single, *rest: ({n: rising(0.3 - n / 400, 1 + n / 300) for n in single}, *rest), "reproduced"),
     # N90 earns what chance earns, throughout: it counted as the quickest learner.
     ("A5", lambda single, *rest: ({**single, 90: made_up(0.003)}, *rest), "reproduced"),
     # Half of the sum is reached early, once, and then lost until late: that was quicker.
-    ("A6", lambda *given: (*given[:3], lives(np.where((0.1 < AT) & (AT < 0.2) | (AT > 0.6), 0.7, 0.0))), "partly"),
+    ("A6", lambda *given: (*given[:3], result_of(np.where((0.1 < AT) & (AT < 0.2) | (AT > 0.6), 0.7, 0.0))), "partly"),
     # Sooner than two of the three maps.
     ("A8", lambda single, control, layers, together: (single, control, layers | {3: rising(0.3, 0.4)}, together),
      "partly")])
@@ -243,7 +243,7 @@ def test_only_recursion_has_to_exceed_chance(chance, expected):
 
 def playing(boards, brought, runs=20):
     """Runs where the last green creep earns 1 more, with `boards` or one more resets, and `brought` points for each."""
-    result = lives(np.zeros(1_000), runs, world=WaterWorld(win_reward=1.0))
+    result = result_of(np.zeros(1_000), runs, world=WaterWorld(win_reward=1.0))
     each = boards + np.arange(runs) % 2
     hits, rewards = result.hits.copy(), np.zeros_like(result.rewards)
     hits[:, 10, 0], hits[:, 20, 1] = np.rint((brought + 2) * each), 2 * each
@@ -263,7 +263,7 @@ def test_points_are_counted_from_one_reset_to_the_next(boards, brought, expected
 def at_half_time(before, after, final, runs=20):
     """Runs that earn `before` in the first half, then `after`, and `final` in the last fifth."""
     at = np.arange(1_000) / 1_000
-    return lives(np.select([at < 0.5, at < 0.8], [before, after], final), runs)
+    return result_of(np.select([at < 0.5, at < 0.8], [before, after], final), runs)
 
 
 @pytest.mark.parametrize("joined, expected", [
@@ -293,7 +293,7 @@ def test_a_claim_is_undecided_while_an_interval_crosses_a_bound(name, change):
 def test_room_for_a_claim_is_no_part_of_it():
     """With wide intervals around zero, claims that compare are open, and none is partly reproduced or contradicted."""
     def alike():
-        return lives(np.full(1_000, 0.3), noise=0.3)
+        return result_of(np.full(1_000, 0.3), noise=0.3)
     judged = claims.judge_single_layer(dict.fromkeys((10, 30, 50, 70, 90), alike()), brownian())
     judged += claims.judge_multiple_layers(dict.fromkeys((3, 7, 23), alike()), alike(), brownian())
     judged += claims.judge_networks(*[alike()] * 4, brownian())

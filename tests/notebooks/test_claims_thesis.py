@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_claims import brownian, lives, made_up
+from test_claims import brownian, result_of, made_up
 
 from companion.chapter_2.maze import Record
 from companion.thesis import claims
@@ -124,7 +124,7 @@ def test_exploration_is_compared_with_the_best_single_map_and_with_chance(togeth
 
 def catching(before, after, final, runs=20):
     """Runs that catch creeps, this many a second before half-time, in the first tenth after it, and finally."""
-    result = lives(np.full(6_000, 0.1), runs, steps=60_000)
+    result = result_of(np.full(6_000, 0.1), runs, steps=60_000)
     hits = np.zeros((runs, 6_000, 2), np.int16)
     hits[:, ::5, 0] = before
     hits[:, 3_000:3_600:5, 0], hits[:, 3_600::5, 0] = after, final

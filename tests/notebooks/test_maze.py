@@ -5,7 +5,7 @@ import pytest
 from page_cells import executed
 
 from companion.chapter_2.maze import (DAYS, GROUPS, LEARNERS, Animal, Maze, Record, Rival, _learn_by_traces, findings,
-                                      live, simulate)
+                                      run_days, simulate)
 from companion.shared.grid import MOVES
 from companion.shared.tabular import Rates
 from neorl.core.stream import new_stream
@@ -112,7 +112,7 @@ def test_sarsa_learns_along_replacing_traces(ended):
 
 def test_sarsa_leaves_no_trace_of_yesterday():
     maze, animal = Maze(), Animal("Sarsa(λ)", discount=1.0, exploration=0.0, trace=1.0)
-    days = live(animal, maze, 1, new_stream(np.random.SeedSequence(0)))
+    days = run_days(animal, maze, 1, new_stream(np.random.SeedSequence(0)))
     errors, learned = zip(*[(errors, worth[maze.blinds].copy()) for (errors, worth), _ in zip(days, range(3))])
     assert errors[0] > 0 and errors[2] == 0  # it enters blinds on the first day and none on the last
     assert learned[0].any() and np.array_equal(learned[1], learned[2])
@@ -134,7 +134,7 @@ def test_exploration_is_the_share_of_drawn_actions():
 @pytest.mark.parametrize("learner", ["neoRL", "Q-learning"])
 def test_learned_values_solve_the_bellman_equation(learner):
     maze = Maze()
-    *_, (_, q) = live(Animal(learner, learning_rate=1.0), maze, 1, new_stream(np.random.SeedSequence(0)))
+    *_, (_, q) = run_days(Animal(learner, learning_rate=1.0), maze, 1, new_stream(np.random.SeedSequence(0)))
     steps_left = maze.goal - np.arange(maze.goal)
     np.testing.assert_allclose(q[: maze.goal].max(axis=1), 0.9 ** (steps_left - 1.0), rtol=1e-5)
     if learner == "neoRL":  # not only for the goal box

@@ -13,7 +13,7 @@ from neorl.statistics import Estimate
 from neorl.statistics import difference, estimate, quotient
 
 
-def lives(rewards):
+def result_of(rewards):
     """A `Result` of runs that earn `rewards` per second, (runs, bins)."""
     rewards = np.asarray(rewards, np.float32) * np.float32(0.2)
     runs, bins = rewards.shape
@@ -23,17 +23,17 @@ def lives(rewards):
 
 def steps_up(at, runs=10, height=1.0):
     """Runs of 80 s that earn nothing at first, and `height` per second from the bin `at` of 400 on."""
-    return lives(np.tile(np.where(np.arange(400) < at, 0.0, height), (runs, 1)))
+    return result_of(np.tile(np.where(np.arange(400) < at, 0.0, height), (runs, 1)))
 
 
 def test_the_mean_reaches_a_level_later_than_the_luckiest_run():
     """Half of the runs are lucky once, early; the mean only reaches its final level when all have learned."""
     rewards = np.full((10, 400), 0.05)
     rewards[:5, 20:30], rewards[:, 200:] = 1.0, 1.0
-    found = minutes_to_own_level(lives(rewards))
+    found = minutes_to_own_level(result_of(rewards))
     assert 60 * np.array(found) == pytest.approx(40, abs=0.2)
-    assert minutes_to_own_level(lives(rewards), lives(rewards), of=np.subtract).value == 0
-    assert minutes_to_own_level(lives(-rewards)).value == 80 / 60  # never
+    assert minutes_to_own_level(result_of(rewards), result_of(rewards), of=np.subtract).value == 0
+    assert minutes_to_own_level(result_of(-rewards)).value == 80 / 60  # never
 
 
 def test_a_lead_in_time_is_that_of_the_mean_over_runs():
@@ -50,8 +50,8 @@ def test_a_lead_in_time_is_that_of_the_mean_over_runs():
 def test_a_level_is_as_uncertain_as_those_who_set_it():
     """Runs climb to levels of their own, so that the mean of others may or may not ever reach nine tenths of theirs."""
     rng = np.random.default_rng(4)
-    steady = lives(np.tile(np.linspace(0, 0.9, 400), (20, 1)))
-    varied = lives(rng.normal(0.9, 0.4, (20, 1)) * np.ones(400))
+    steady = result_of(np.tile(np.linspace(0, 0.9, 400), (20, 1)))
+    varied = result_of(rng.normal(0.9, 0.4, (20, 1)) * np.ones(400))
     found = minutes_sooner(steps_up(10, 20, 2.0), steady, 0.9, varied)
     assert found.low < 1.2 and found.high > 1.25  # reached late, and never: the whole run
     wide = widened(found, 34)
@@ -68,7 +68,8 @@ def test_a_lead_in_time_is_not_made_by_the_noise_of_single_runs():
 def test_a_run_that_earns_its_final_level_from_a_time_on_has_learned_for_as_long():
     chance = np.zeros(10)
     assert learning_minutes(steps_up(100), chance=chance).value == pytest.approx(20 / 60)
-    assert learning_minutes(lives(np.tile(np.arange(400) < 380, (10, 1))), chance=chance).value == 0  # falls at the end
+    falling = result_of(np.tile(np.arange(400) < 380, (10, 1)))  # at the end
+    assert learning_minutes(falling, chance=chance).value == 0
     pair = learning_minutes(steps_up(200), steps_up(100), chance=chance, of=quotient)
     assert pair == pytest.approx([2, 2, 2])
     above = learning_minutes(replace(steps_up(100), rewards=steps_up(100).rewards + 0.2), chance=chance + 1)
@@ -122,7 +123,7 @@ def test_the_time_to_a_level_is_covered_and_hardly_biased(runs):
     curve, trials = 1 - np.exp(-time / 20), 60
     known = -20 * np.log(1 - 0.9 * curve[320:].mean())
     for _ in range(trials):
-        value, low, high = minutes_to_own_level(lives(curve + rng.normal(0, 0.6, (runs, 400))))
+        value, low, high = minutes_to_own_level(result_of(curve + rng.normal(0, 0.6, (runs, 400))))
         covered += 60 * low <= known <= 60 * high
         values.append(60 * value)
     assert covered / trials >= 0.85 and np.mean(values) == pytest.approx(known, rel=0.06)

@@ -173,9 +173,9 @@ def results():
     found = conditions(TO_THE_LETTER.varied(fps=30), 600, 2)
     cheap = {key: replace(condition, steps=min(condition.steps, 9_600)) for key, condition in found.items()
              if key not in [("single", 70), ("single", 90)]}
-    lived = {key: simulate(**condition.choices, progress=False) for key, condition in cheap.items()}
+    results = {key: simulate(**condition.choices, progress=False) for key, condition in cheap.items()}
     near = {"experienced": np.full((2, 6), 0.2), "ignorant": np.full((2, 6), 0.4)}
-    return lived | {("single", n): lived["single", 50] for n in (70, 90)} | {
+    return results | {("single", n): results["single", 50] for n in (70, 90)} | {
         "moved": {"both": near, "place cells": near}}
 
 

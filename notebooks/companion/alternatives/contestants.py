@@ -1,7 +1,7 @@
 """The contestants of the page on alternatives, what those earn that are not agents, and the claims on them."""
 
 from companion.alternatives.controllers import PLANNED, nearest_green, pd, planner
-from companion.alternatives.living import BOARDS, FPS, bins_of, identity, live
+from companion.alternatives.contests import BOARDS, FPS, bins_of, identity, run_contestant
 from companion.alternatives.search import DEEP, best_settings
 from companion.alternatives.tabular_learners import TABULAR
 from companion.page import judging
@@ -29,7 +29,7 @@ def of_others(settings, board, steps, runs, seed):
     others = {name: make(settings[name]) for name, make in TABULAR.items()}
     others |= {name: make(settings["PD"]) for name, make in INFORMED.items()}
     length = {"planner": max(bins_of(steps), round(PLANNED * steps))}
-    return {name: live(each, board, steps=length.get(name, steps), runs=runs, bins=bins_of(steps), seed=seed)
+    return {name: run_contestant(each, board, steps=length.get(name, steps), runs=runs, bins=bins_of(steps), seed=seed)
             for name, each in others.items()}
 
 

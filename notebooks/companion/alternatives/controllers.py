@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from companion.alternatives.living import Contestant, learn_nothing
+from companion.alternatives.contests import Contestant, learn_nothing
 from companion.alternatives.tabular_learners import ACTIONS, nearest
 from neorl.core.choices import Action
 from neorl.custom import ABSENT, array

@@ -23,7 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-from companion.alternatives.living import MINUTE, Row, read, write
+from companion.alternatives.contests import MINUTE, Row, read, write
 from companion.alternatives.search import DEEP, DEEP_SETTINGS, DEEP_STEPS, SEED, append, best_settings, setting_of
 from companion.alternatives.search import read as read_search
 from neorl.common.extras import require
@@ -74,7 +74,7 @@ class Sight(gymnasium.Wrapper):
         return np.concatenate([self._scale * observation, velocity.ravel()], dtype=np.float32)
 
 
-def live(method, settings, creeps, steps, seed, run):
+def train(method, settings, creeps, steps, seed, run):
     """Train a deep learner: (reward of each minute; processor seconds; kB of networks, optimiser and experience)."""
     import torch
     torch.set_num_threads(1)
@@ -116,7 +116,7 @@ def search(path):
     for number in range(DEEP_SETTINGS):
         for method in DEEP:
             if (method, number) not in done:
-                rewards, _, _ = live(method, setting_of(method, number), 3, DEEP_STEPS, SEED, number)
+                rewards, _, _ = train(method, setting_of(method, number), 3, DEEP_STEPS, SEED, number)
                 third = rewards[-len(rewards) // 3:]
                 append(path, method, number, third.sum() / (60 * len(third)))
 
@@ -134,7 +134,7 @@ def run_all(path):
 
 def row_of(method, creeps, steps, run):
     """Compute one run, with the setting that the search found: a `Row`."""
-    rewards, seconds, kilobytes = live(method, best_settings()[method], creeps, steps, 0, run)
+    rewards, seconds, kilobytes = train(method, best_settings()[method], creeps, steps, 0, run)
     return Row(method, creeps, steps, run, seconds, kilobytes, rewards)
 
 

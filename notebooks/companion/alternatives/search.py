@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from companion.alternatives.controllers import Gains, pd
-from companion.alternatives.living import BOARDS, FOLDER, live
+from companion.alternatives.contests import BOARDS, FOLDER, run_contestant
 from companion.alternatives.tabular_learners import TABULAR, Setting
 from neorl.common import checks
 
@@ -62,7 +62,8 @@ def setting_of(method, number):
 
 def evaluate(method, number):
     """Reward per second of a setting of a tabular learner or of PD in the last third, a mean over runs."""
-    earned = live(MAKERS[method](setting_of(method, number)), BOARDS[3], steps=STEPS, runs=RUNS, bins=3, seed=SEED)
+    contestant = MAKERS[method](setting_of(method, number))
+    earned = run_contestant(contestant, BOARDS[3], steps=STEPS, runs=RUNS, bins=3, seed=SEED)
     return float(earned.rates[:, -1].mean())
 
 

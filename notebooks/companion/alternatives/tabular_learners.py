@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from companion.alternatives.living import Contestant
+from companion.alternatives.contests import Contestant
 from companion.shared.tabular import exploring_action, learn_q
 from neorl.kernels.annotations import array
 from neorl.kernels.kernel import inlined_kernel, kernel

@@ -175,7 +175,7 @@ def simulate(animal, maze, first_meal, runs, seed=0, group=0):
     known = np.zeros((runs, DAYS))
     for run in range(runs):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run, group)))
-        for day, (errors[run, day], worth) in enumerate(live(animal, maze, first_meal, stream)):
+        for day, (errors[run, day], worth) in enumerate(run_days(animal, maze, first_meal, stream)):
             known[run, day] = _known(maze, worth[maze.choice_points])
     return Record(errors, known, (animal, maze, first_meal))
 
@@ -187,7 +187,7 @@ def _known(maze, worth):
     return np.mean(alone & (maze.next_state[maze.choice_points, best] == maze.choice_points + 1))
 
 
-def live(animal, maze, first_meal, stream):
+def run_days(animal, maze, first_meal, stream):
     """For each day in turn, an animal's errors and its values of actions for reaching the goal box, (states, 4)."""
     if animal.learner == "neoRL":
         agent = neorl_animal(animal, maze)
@@ -195,7 +195,7 @@ def live(animal, maze, first_meal, stream):
         record["stream"], memory = stream, with_values(record, memory)
         scene = new_tuple(Scene, {"axes": 1, "things": 1}, {"things": np.array([[maze.goal + 0.5]]),
                                                             "kinds": np.array([ABSENT])})
-        day = live_a_day, record, memory, scene, loop_of(agent)
+        day = _agents_day, record, memory, scene, loop_of(agent)
         worth = memory.q.reshape(maze.states, 4, maze.states)[:, :, maze.goal]
     else:
         rates = Rates(animal.learning_rate, animal.discount, animal.exploration)
@@ -255,7 +255,7 @@ def findings(groups, first_meal):
 
 
 @kernel
-def live_a_day(agent: AgentRecord, memory: Memory, scene: Scene, loop: Loop, next_state, goal, fed):
+def _agents_day(agent: AgentRecord, memory: Memory, scene: Scene, loop: Loop, next_state, goal, fed):
     """Run an agent through the maze once, and return its errors. fed: whether there is food."""
     place, errors = 0, 0
     scene.position[0] = 0.5

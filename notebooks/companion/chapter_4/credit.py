@@ -72,7 +72,7 @@ def learn_in(chamber, learning, visits, runs, seed=0):
                             np.tile([0, CELLS], (CELLS, 1)), np.zeros(CELLS, np.float32))
         learner = Learner(by_step, learning.bootstrap, int(Credit[learning.credit]), rate, rule, learned,
                           *(np.zeros(N_EVENTS, kind) for kind in (np.int64, np.bool_, np.float32)))
-        execute(_live_in, chamber, learner, new_stream(np.random.SeedSequence(seed, spawn_key=(run,))), values[run])
+        execute(_run_in, chamber, learner, new_stream(np.random.SeedSequence(seed, spawn_key=(run,))), values[run])
     return values
 
 
@@ -90,8 +90,8 @@ def lead_of_cause(values):
 
 
 @kernel
-def _live_in(chamber, learner, stream, values):
-    """Live a visit for each row of `values`, and store the chamber's values after it there."""
+def _run_in(chamber, learner, stream, values):
+    """Run a visit for each row of `values`, and store the chamber's values after it there."""
     counts, occurs, q = learner.counts, learner.occurs, learner.learned.q
     over = True
     lever = 0

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from companion.paper_b.trials import LIVED, of_runs
+from companion.paper_b.trials import BEFORE, of_runs
 from neorl import Condition, Desire, Node, Place, Policy, Run
 from neorl.core.modality import PLACE_CELL
 from neorl.experiments.bins import bin_steps
@@ -68,9 +68,9 @@ def distances(condition):
     interval = bin_steps(world)
     samples = SECONDS_A_MOVE * world.fps // interval
 
-    def near(lived, k):
+    def near(before, k):
         run, found = Run(agent, world, seed, k), np.empty((MOVES, samples))
-        run.advance(lived)
+        run.advance(before)
         for move in range(MOVES):
             at = PLACES[move % len(PLACES)]
             run.change(desires[move % len(PLACES)])
@@ -79,9 +79,9 @@ def distances(condition):
                 found[move, sample] = np.linalg.norm(run.world_state.scene.position / world.size - at.coordinates)
         return found
 
-    lived = {"experienced": round(LIVED * condition.steps), "ignorant": 0}
+    learned = {"experienced": round(BEFORE * condition.steps), "ignorant": 0}
     moved = {name: of_runs(lambda k: near(before, k), agent, world, condition.runs)
-             for name, before in lived.items()}
+             for name, before in learned.items()}
     return Moved(condition, moved, (np.arange(samples) + 1) * interval / world.fps)
 
 
@@ -113,10 +113,10 @@ def measure_costs(condition):
     both = replace(agent, nodes=[replace(node, gain=0.0) for node in agent.nodes], policy=Policy(0.0, "random"))
     maps = [(node.name, n) for node in both.nodes for n in node.resolutions]
     sets = [(), *((each,) for each in maps), *(maps[:k] for k in range(2, len(maps) + 1))]
-    alive = [Run(_with_maps(both, chosen), condition.world, condition.seed) for chosen in sets]
+    timed = [Run(_with_maps(both, chosen), condition.world, condition.seed) for chosen in sets]
     cost = np.empty((len(sets), repetitions))
     for repetition in range(repetitions):  # in turns, so that disturbances affect all alike
-        for place, run in enumerate(alive):
+        for place, run in enumerate(timed):
             start = perf_counter()
             run.advance(steps)
             cost[place, repetition] = (perf_counter() - start) / steps * 1e6

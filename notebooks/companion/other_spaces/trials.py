@@ -24,25 +24,25 @@ POINTS = 8  # of a curve over the car's decisions
 
 def swim_by_table(maze, rates, runs, seed):
     """Seconds that Q-learning takes to the platform: float64 (runs, trials). rates: a `Rates`."""
-    live, latencies = _table_in(maze.dynamics), []
+    loop, latencies = _table_in(maze.dynamics), []
     for run in range(runs):
         sequence = np.random.SeedSequence(seed, spawn_key=(run,))
         state, q = maze.reset(sequence), np.zeros((SIDE * SIDE, len(maze.actions.names)))
         stream = new_stream(sequence.spawn(1)[0])
         while state.trial[0] <= maze.trials:
-            execute(live, state, maze.rules, rates, SIDE, STRETCH, q, stream)
+            execute(loop, state, maze.rules, rates, SIDE, STRETCH, q, stream)
         latencies.append(state.latency)
     return np.array(latencies)
 
 
 @functools.cache
 def _table_in(dynamics):
-    """The kernel `live` of Q-learning in the unit square of a world with two axes."""
+    """The loop of Q-learning in the unit square of a world with two axes."""
     reset, step = dynamics
     world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
 
     @kernel
-    def live(state: world_type, rules: rules_type, rates: Rates, side: int, steps: int,
+    def loop(state: world_type, rules: rules_type, rates: Rates, side: int, steps: int,
              q: array("float64", "cells", "actions"), stream: array("uint64", 4)) -> None:
         """Take `steps` steps, one episode after another."""
         for _ in range(steps):
@@ -54,7 +54,7 @@ def _table_in(dynamics):
             if done:
                 reset(state, rules)
 
-    return live
+    return loop
 
 
 @kernel

@@ -12,7 +12,7 @@ from companion.shared.runs import each_run
 from neorl import Condition, Policy, Run
 from neorl.experiments.simulation import usable_threads
 
-LIVED = 0.25  # share of a run that agents live before they are measured
+BEFORE = 0.25  # share of a run that agents learn before they are measured
 
 
 class Stays(NamedTuple):
@@ -39,12 +39,12 @@ def mean_stays(condition):
 
 def _stays(condition):
     agent, world = condition.agent, condition.world
-    lived = round(LIVED * condition.steps)
-    path_steps = max(1, min(lived, 15_000))
+    before = round(BEFORE * condition.steps)
+    path_steps = max(1, min(before, 15_000))
 
     def of_run(k):
         run = Run(agent, world, condition.seed, k)
-        run.advance(lived)
+        run.advance(before)
         path = run.record(path_steps)
         moved = ~np.isin(path.steps[:-1], path.ends)
         changes = [((np.diff(each.encode(path.positions / world.size)) != 0) & moved).sum() for each in agent.maps]
@@ -103,6 +103,6 @@ def learn(agents, world, steps, runs, seed=0):
             for name, agent in agents.items()}
 
 
-def of_runs(live_one, agent, world, runs):
-    """What live_one(k) measures of each run k of an agent, (runs, ...)."""
-    return np.array(each_run(live_one, runs, usable_threads(agent, world)))
+def of_runs(measure, agent, world, runs):
+    """What measure(k) finds of each run k of an agent, (runs, ...)."""
+    return np.array(each_run(measure, runs, usable_threads(agent, world)))

@@ -3,7 +3,7 @@
 from concurrent.futures import ThreadPoolExecutor
 
 
-def each_run(live, runs, threads=2):
-    """What live(0) to live(runs - 1) return: a list. threads: at most; another page is computed beside this one."""
+def each_run(run_one, runs, threads=2):
+    """What run_one(k) returns of each run k: a list. threads: at most; another page is computed beside this one."""
     with ThreadPoolExecutor(threads) as cores:
-        return list(cores.map(live, range(runs)))
+        return list(cores.map(run_one, range(runs)))

@@ -165,26 +165,26 @@ def _all_conditions(reading, steps, runs, seed):
     three = replace(reading.world, n_creeps=3, win_reward=0.0)
     each = reading.agents
 
-    def living(agent, paper, length=steps, runs=runs, blocks=1):
+    def condition(agent, paper, length=steps, runs=runs, blocks=1):
         world, length = (eight if paper == "A" else three), blocks * min(length, LENGTHS[paper])
         length = length if paper == "A" else max(1, round(length * reading.world.fps / PAPER_FPS))
         return Condition(agent, world, length, runs, seed)
 
-    made = {("brownian", 8): living(papers.brownian(), "A", LENGTHS["A"], CONTROLS * runs),
-            ("brownian", 3): living(papers.brownian(), "B", runs=CONTROLS * runs)}
-    made |= {("layer", n): living(papers.place_cells([n], **each), "A") for n in LAYERS}
-    made["layers"] = living(papers.place_cells(LAYERS, **each), "A")
-    made |= {("single", n): living(papers.place_cells([n], **each), "A") for n in SINGLE}
-    made |= {("long", n): living(papers.place_cells([n], **each), "A", blocks=BLOCKS) for n in SINGLE}
+    made = {("brownian", 8): condition(papers.brownian(), "A", LENGTHS["A"], CONTROLS * runs),
+            ("brownian", 3): condition(papers.brownian(), "B", runs=CONTROLS * runs)}
+    made |= {("layer", n): condition(papers.place_cells([n], **each), "A") for n in LAYERS}
+    made["layers"] = condition(papers.place_cells(LAYERS, **each), "A")
+    made |= {("single", n): condition(papers.place_cells([n], **each), "A") for n in SINGLE}
+    made |= {("long", n): condition(papers.place_cells([n], **each), "A", blocks=BLOCKS) for n in SINGLE}
     for name, chosen in {**{n: [n] for n in PRIMES}, "all": PRIMES}.items():
-        made["place", name] = living(papers.place_cells(chosen, **each), "B")
-        made["objects", name] = living(papers.object_vector_cells(chosen, **each), "B")
+        made["place", name] = condition(papers.place_cells(chosen, **each), "B")
+        made["objects", name] = condition(papers.object_vector_cells(chosen, **each), "B")
     both = papers.multimodal(PRIMES, place_gain=reading.place_gain, **each)
-    made["both"] = living(both, "B")
+    made["both"] = condition(both, "B")
     longer = {"length": LONGER * steps, "runs": max(2, runs // 2)} if steps < LENGTHS["B"] else {}
-    made |= {("pace", name): living(agent, "B", **longer) for name, agent in
+    made |= {("pace", name): condition(agent, "B", **longer) for name, agent in
              (("place", made["place", "all"].agent), ("both", both))}
-    made |= {("network", name): living(agent, "C") for name, agent in networks(reading).items()}
+    made |= {("network", name): condition(agent, "C") for name, agent in networks(reading).items()}
     wanting = replace(both, desires=[replace(desire, valence=1.0) for desire in both.desires])
     half = made["both"].steps // 2
     frozen = replace(wanting, learning=replace(wanting.learning, learning_rate=0.0))

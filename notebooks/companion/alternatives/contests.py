@@ -1,4 +1,4 @@
-"""How the contestants of the page on alternatives live, what they earn, and the runs that are stored for the page.
+"""How the contestants of the page on alternatives run, what they earn, and the runs that are stored for the page.
 
 1. A *contestant* is two kernels, ``act(setting, memory, state, rules)``, which returns the number of an action, and
    ``learn(setting, memory, state, rules, action, reward, restarted)``, called after the world's step. `state` is the
@@ -92,35 +92,35 @@ def identity(contestant, world):
     return *contestant[:3], world
 
 
-def live(contestant, world, *, steps, runs, bins=BINS, seed=0):
+def run_contestant(contestant, world, *, steps, runs, bins=BINS, seed=0):
     """Run a contestant in a `WaterWorld`: `Earned`.
 
     Run k has the world of ``neorl.Run(agent, world, seed, k)``; the contestant has a random stream of its own.
     """
-    kernel_of_life = _life_of(contestant.act, contestant.learn)
+    loop = _loop_of(contestant.act, contestant.learn)
     edges = np.linspace(0, steps, bins + 1).round().astype(int)
     rewards, seconds, sizes = np.zeros((runs, bins)), np.zeros(runs), np.zeros(runs, int)
 
-    def live_one(run, edges=edges):
+    def run_one(run, edges=edges):
         state = world.reset(np.random.SeedSequence(seed, spawn_key=(run,)))
         memory = contestant.new_memory(world, new_stream(np.random.SeedSequence(seed, spawn_key=(run, 1))))
         sizes[run] = sum(each.nbytes for each in arrays(memory).values())
         began = thread_time()
-        execute(kernel_of_life, contestant.setting, memory, state, world.rules, edges, rewards[run])
+        execute(loop, contestant.setting, memory, state, world.rules, edges, rewards[run])
         seconds[run] = thread_time() - began
 
-    live_one(0, np.zeros_like(edges))  # compiles the kernel before calls are timed
-    each_run(live_one, runs)
+    run_one(0, np.zeros_like(edges))  # compiles the kernel before calls are timed
+    each_run(run_one, runs)
     return Earned(rewards, steps, float(np.median(seconds)) / steps, int(sizes[0]) / 1e3,
                   identity(contestant, world))
 
 
 @functools.cache
-def _life_of(act, learn):
+def _loop_of(act, learn):
     act, learn, step = inlined(act), inlined(learn), inlined(waterworld.step)
 
     @kernel
-    def life(setting, memory, state, rules, edges, rewards):
+    def loop(setting, memory, state, rules, edges, rewards):
         for part in range(rewards.shape[0]):
             for _ in range(edges[part], edges[part + 1]):
                 action = act(setting, memory, state, rules)
@@ -130,7 +130,7 @@ def _life_of(act, learn):
                 learn(setting, memory, state, rules, action, reward, done)
                 rewards[part] += reward
 
-    return life
+    return loop
 
 
 @kernel
@@ -199,9 +199,9 @@ def stored(rows, names, creeps, steps):
     found, minutes = {}, steps // MINUTE
     for name in names:
         own = [row for row in rows if (row.method, row.creeps) == (name, creeps)]
-        lived = sorted((row for row in own if len(row.rewards) >= minutes), key=lambda row: row.run)
-        if lived:
+        long_enough = sorted((row for row in own if len(row.rewards) >= minutes), key=lambda row: row.run)
+        if long_enough:
             seconds = float(np.median([row.seconds / row.steps for row in own]))
-            found[name] = Earned(np.array([row.rewards[:minutes] for row in lived]), minutes * MINUTE, seconds,
-                                 lived[0].kilobytes)
+            found[name] = Earned(np.array([row.rewards[:minutes] for row in long_enough]), minutes * MINUTE,
+                                 seconds, long_enough[0].kilobytes)
     return found
