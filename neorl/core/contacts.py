@@ -55,6 +55,7 @@ def mirror(agent, node):
             for place in range(axis, end, axes):
                 coordinates[place] = -coordinates[place]
         flips *= 2
+    # Selection sort; its exchanges, as digits of descending bases, number the orders.
     for axis in range(axes - 1):
         longest = axis
         for other in range(axis + 1, axes):
@@ -87,6 +88,7 @@ def entry_of(agent, nres, cell, event):
 @kernel
 def blended(agent, memory, node, event, which):
     """The approach or fear of an event in the cells of agent.seen, blended over all maps of a node."""
+    # V += n / (n + familiarity) (V_m − V), from the coarsest map to the finest.
     q, first = memory.q, node.first_map
     value = np.float64(q[entry_of(agent, agent.maps[first], agent.seen[first], event) + which])
     for m in range(node.first_map + np.uint64(1), node.end_map):
@@ -144,6 +146,7 @@ def observe_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunc
     locate(agent, memory, scene, user, node, point, False)
     frame = seen_cells(agent, memory, node)
     if agent.learns and event < agent.rates.shape[0] and first.cell >= 0 and (met or not absent):
+        # The outcome: 1 for a contact, else γ max_a approach(s⁺, a) and γ min_a fear(s⁺, a).
         approach, fear = 1.0, 1.0
         if not met:
             approach, fear = 0.0, np.inf
@@ -165,6 +168,7 @@ def learn_step(agent, memory, node, point, event, approach, fear):
     """Move the values of an event, in the cells that a thing was in, towards its outcome."""
     q, contacts = memory.q, agent.contacts
     coarser, feared = 0.0, 0.0
+    # Q_m(s⁻, a) += max(α, (n + 2)^(−3/4)) (outcome − Q_m(s⁻, a)); an event not seen yet begins with the coarser blend.
     for m in range(node.first_map, node.end_map):
         t = agent.maps[m].first_track + point
         track = memory.tracks[t]
@@ -192,6 +196,7 @@ def learn_step(agent, memory, node, point, event, approach, fear):
 def remember_back(contacts, memory, t):
     """Raise the approach of the actions that led to a contact, backwards from the last but one."""
     q, left, count, worth = memory.q, memory.left, memory.tracks[t].left, 1.0
+    # approach_k += trace rate · (γᵏ − approach_k) where γᵏ is higher, of the action k steps before the last.
     for back in range(2, min(count, left.shape[1]) + 1):
         worth *= contacts.discount
         entry = np.uint64(left[t, (count - back) % left.shape[1]])
@@ -204,6 +209,7 @@ def remember_back(contacts, memory, t):
 def evaluate_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunctions, n: int) -> None:
     """Compute the contributions of a node's desires to its Q-vector: see rule 5 of this module."""
     node, contacts, actions, axes = agent.nodes[n], agent.contacts, agent.rates.shape[0], agent.here.shape[0]
+    # Q(a) = Σ w approach(a) + caution Σ w fear(a), the first over the best thing alone unless rivals add up.
     most, best = -1.0, -1
     for i in range(node.first_input, node.end_input):
         e = agent.inputs[i]

@@ -103,6 +103,7 @@ def join_passed(agent, memory, trace, rule, node, nres, point):
         memory.passed_rates[begin + newest, event] = agent.rates[event]
     filled = min(passed, size)
     look_back(agent, memory, node, nres, begin, filled)
+    # Of a place k changes of cell ago: Σ α_a += α_a (m / (1 + m))ᵏ, and Σ α_a γᵏ += α_a (γ m / (1 + m))ᵏ.
     for back in range(filled):
         # Unsigned, and around the ring without %, which would divide.
         slot = np.uint64(begin + (newest - back if back <= newest else newest - back + size))
@@ -118,6 +119,7 @@ def join_passed(agent, memory, trace, rule, node, nres, point):
 @kernel
 def look_back(agent, memory, node, nres, begin, filled):
     """Write the cell of the self as seen from each place into memory.seen_from, or −∞ beyond the range."""
+    # cell = Σ stride ⌊(here − passed_at − low) scale⌋ over axes, all places along one axis at a time.
     seen_from = memory.seen_from[begin : begin + filled]
     for i in range(filled):
         seen_from[i] = 0.0
@@ -143,6 +145,7 @@ def learn_all_displacements(memory, values, rule, node, nres, reached, rates):
     q, actions, target = values.q, values.actions, values.scratch
     cells, shift, width = nres.cells, reached - nres.contact, int(memory.cuts[nres.first_cut].last) + 1
     across = reached % width - nres.contact % width  # along the first axis, whose cells follow each other
+    # target_i = R_i + γ max_a q[i − shift, a]: i − shift is goal i as seen from the new centre, if it is in the map.
     for row in range(0, cells, width):
         inside = stays_inside(memory, node, nres, row, reached)
         for goal in range(row, row + width):
@@ -153,6 +156,7 @@ def learn_all_displacements(memory, values, rule, node, nres, reached, rates):
             target[goal] *= rule.discount
     target[reached] = UNIT if rule.terminal else UNIT + target[reached]
     highest = UNIT if rule.terminal else UNIT / (UNIT - rule.discount)
+    # q[i, a] += α_a (target_i − q[i, a]), as in `learn_all_goals`.
     for goal in range(cells):
         widen(values.goal_range, goal, 0)
         for event in range(actions):

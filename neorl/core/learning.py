@@ -73,6 +73,7 @@ def rate_events(agent, memory, user, t):
     learning, steps = agent.learning, 0
     for event in range(agent.rates.shape[0] + 1):
         steps += memory.events[t, event]
+    # ψ_a = n_a / Σ n, unless the rule of credit is another.
     for event in range(agent.rates.shape[0]):
         count = memory.events[t, event]
         credit = np.float32(count) / np.float32(steps)
@@ -130,7 +131,8 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
     goal_range[cell_tm1, 0], goal_range[cell_tm1, 1] = begin, end
     count, last = end - begin, values.actions - 1
     row = values.first + cell_t * values.actions * cells + begin
-    # γ max Q_i(s⁺, ·), four actions at a time, so that each target is written once; the last stands for those missing.
+    # target_i = γ max_a Q_i(s⁺, a), by four actions at a time, so that each is written once; the last stands for those
+    # missing.
     for event in range(0, values.actions, 4):
         factor = UNIT if event + 4 <= last else rule.discount
         first, second = row + event * cells, row + min(event + 1, last) * cells
@@ -146,9 +148,12 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
             for goal in range(count):
                 best = higher(higher(one[goal], two[goal]), higher(three[goal], four[goal]))
                 target[goal] = factor * higher(best, target[goal])
+    # R_i is 1 for i = s⁺, and if goals are terminal, no value follows it.
     target[cell_t - begin] = UNIT if rule.terminal else UNIT + target[cell_t - begin]
     highest = UNIT if rule.terminal else UNIT / (UNIT - rule.discount)
-    for event in range(values.actions):  # a loop for each form of the update, which compiles to vector instructions
+    # Q_i(s⁻, a) += α_a (target_i − Q_i(s⁻, a)); of absent events −= rate (target_i − Q_i(s⁻, a)), or rate Q_i(s⁻, a).
+    # A loop for each, which compiles to vector instructions.
+    for event in range(values.actions):
         row = values.first + (cell_tm1 * values.actions + event) * cells + begin
         value = q[row : row + count]  # a view, as above
         occurred = rates[event] > ZERO
@@ -204,6 +209,7 @@ def widen(goal_range, cell, goal):
 @kernel
 def sunk(value, rate, target, away, highest):
     """The new value of an event that did not occur: closer to zero, or away from its target within 0 … `highest`."""
+    # Q − rate · (target − Q), or Q − rate · Q.
     if away:
         value -= rate * (target - value)
         value = value if value < highest else highest

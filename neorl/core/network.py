@@ -187,6 +187,7 @@ def add_contact(agent, memory, node, nres, cell, valence, q):
     if node.reach == 0.0 or cell < 0:
         add_goals(agent, memory, node, nres, cell, contact_cell(nres, cell), valence, q)
         return
+    # Σ_i Q_i(s, a) over the cells i of a box around distance 0, which one number counts along all axes.
     boxes = 1
     for axis in range(node.axes):
         cut = memory.cuts[nres.first_cut + axis]

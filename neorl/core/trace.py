@@ -77,6 +77,7 @@ def fade(trace, count, retained, discount):
     for i in range(count):
         trace.strength[i] *= retained
     size, half = count * trace.rates.shape[0], trace.cells.shape[0] * trace.rates.shape[0]
+    # Σ α_a ×= m / (1 + m), and Σ α_a γᵏ ×= γ m / (1 + m), of events that occurred, and then of absent ones.
     for begin in range(0, 2 * half, half):
         # Views, whose indices count from 0.
         weights, worths = trace.weight[begin : begin + size], trace.goal_worth[begin : begin + size]
@@ -141,6 +142,7 @@ def learn_remembered(values, order, rule, trace, count, goal):
 @kernel
 def move(values, count, happened, reached, absent, missed, away):
     """Move values towards the worth of the goal for events that occurred, and let those of absent events sink."""
+    # Q += min(Σ α_a, 1) (Σ α_a γᵏ / Σ α_a − Q) where a occurred, and then, by Σ |α ψ(0)|, `sunk` where it was absent.
     for i in range(count):
         value = values[i]
         # Both results, then a choice: without a branch, the loop compiles to vector instructions.

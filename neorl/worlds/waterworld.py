@@ -9,7 +9,11 @@ Rules, as in the PyGame Learning Environment (Tasfi 2016; thesis section 4.2), f
    discs. Pygame rounds positions since version 2, and truncated them before. A touched creep pays +1 if green and −1 if
    red, and a fresh creep takes its place.
 3. If no green creep is left, the step also pays `win_reward` and the episode is over.
-4. Every creep, including fresh ones, moves at its own constant speed. At a wall it is clamped and bounces with jitter.
+4. Every creep, including fresh ones, moves at its own constant speed. At a wall it is clamped, and bounces: that
+   component of its direction is multiplied by −(1 + jitter / 2), and the direction is normalised.
+5. A fresh creep is green or red with equal probability, 1.5 radii or more from the walls and 1.5 pixels or more from
+   the agent. It moves along a diagonal, at up to a quarter of the width per second.
+6. An episode begins with the agent at rest in the centre and with fresh creeps, at least one of them green.
 
 The tank is 250 pixels wide with 50 steps per second by default; the origin is the upper left corner.
 """
@@ -57,7 +61,7 @@ class Rules(NamedTuple):
 
 @kernel
 def draw_creep(state, rules, creep):
-    """Put a fresh creep into a slot: anywhere but within 1.5 pixels of the agent."""
+    """Put a fresh creep into a slot (rule 5)."""
     state.scene.kinds[creep] = GREEN if uniform(state.stream) < 0.5 else RED
     margin = 1.5 * rules.radius
     distance_squared = 0.0
@@ -76,7 +80,7 @@ def draw_creep(state, rules, creep):
 
 @kernel
 def reset(state: WaterWorldState, rules: Rules) -> None:
-    """Start an episode: the agent at rest in the centre, fresh creeps, at least one of them green."""
+    """Start an episode (rule 6)."""
     for axis in range(2):
         state.scene.position[axis] = 0.5 * rules.width
         state.scene.velocity[axis] = 0.0
@@ -89,7 +93,7 @@ def reset(state: WaterWorldState, rules: Rules) -> None:
 
 @kernel
 def step(state: WaterWorldState, rules: Rules, action: int):
-    """Advance the state by one step of the rules. Returns (reward, done)."""
+    """Advance the state by one step: rules 1 to 4, in this order. Returns (reward, done)."""
     move_agent(state.scene, rules, action)
     reward, done = touch_creeps(state, rules)
     for creep in range(state.speed.shape[0]):
@@ -99,6 +103,7 @@ def step(state: WaterWorldState, rules: Rules, action: int):
 
 @inlined_kernel
 def move_agent(scene, rules, action):
+    """Accelerate and move the agent (rule 1)."""
     if action != Action.no_op:
         axis = 1 if action <= Action.S else 0
         sign = -1.0 if action == Action.N or action == Action.W else 1.0
@@ -120,6 +125,7 @@ def move_agent(scene, rules, action):
 
 @inlined_kernel
 def touch_creeps(state, rules):
+    """Take the creeps that the agent touches (rules 2 and 3). Returns (reward, done)."""
     agent_x = np.floor(state.scene.position[0] + rules.rounding)
     agent_y = np.floor(state.scene.position[1] + rules.rounding)
     reach = 2.0 * rules.radius
@@ -140,6 +146,7 @@ def touch_creeps(state, rules):
 
 @inlined_kernel
 def move_creep(state, rules, creep):
+    """Move a creep, and let it bounce (rule 4)."""
     low, high = rules.radius, rules.width - rules.radius
     bounce = -(1.0 + 0.5 * state.jitter[creep])
     for axis in range(2):

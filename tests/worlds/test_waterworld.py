@@ -4,6 +4,9 @@ The recordings are 243 single steps of the PyGame Learning Environment's WaterWo
 (github.com/ntasfi/PyGame-Learning-Environment), chosen to cover contacts, walls and ends of episodes.
 """
 
+import ast
+import inspect
+import re
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +16,7 @@ from hypothesis import strategies as st
 
 from neorl import WaterWorld
 from neorl.kernels.annotations import arrays
+from neorl.worlds import waterworld
 from neorl.worlds.waterworld import GREEN, RED
 
 RECORDINGS = dict(np.load(Path(__file__).with_name("waterworld_recordings.npz")))
@@ -23,6 +27,14 @@ FIELDS = {"scene.position": "agent_pos", "scene.velocity": "agent_vel", "scene.t
 def recorded_field(recorded, field, key, step):
     value = recorded[key][step]
     return np.where(value, GREEN, RED) if field == "scene.kinds" else value
+
+
+def test_every_kernel_says_which_rule_it_is():
+    kernels = [ast.get_docstring(each) for each in ast.parse(inspect.getsource(waterworld)).body
+               if isinstance(each, ast.FunctionDef)]
+    stated = re.findall(r"^(\d)\. ", waterworld.__doc__, re.MULTILINE)
+    cited = [re.findall(r"\d", re.search("rules? [^).:]*", each)[0]) for each in kernels]
+    assert len(kernels) == 6 and {number for numbers in cited for number in numbers} == {*stated}
 
 
 @pytest.mark.parametrize("name", sorted({key.split("/")[0] for key in RECORDINGS}))
