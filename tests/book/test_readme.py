@@ -2,6 +2,7 @@
 
 import dataclasses
 import doctest
+import importlib
 import json
 import re
 from pathlib import Path
@@ -38,6 +39,37 @@ def test_the_package_says_what_it_is_for_with_an_example_that_runs():
     (example,) = doctest.DocTestFinder(exclude_empty=True, recurse=False).find(
         neorl, extraglobs={"neorl": neorl, "dataclasses": dataclasses})
     assert len(example.examples) == 7 and doctest.DocTestRunner().run(example).failed == 0
+
+
+def test_names_come_from_where_the_package_s_first_page_says():
+    rows = re.findall(r"^\|.*\| (.*) \| `(neorl[\w.]*)` \|$", PACKAGE, re.MULTILINE)
+    assert {"neorl", "neorl.custom", "neorl.worlds"} < {place for _, place in rows}
+    for names, place in rows:
+        for target in re.findall(r"`~([\w.]+)`", names):
+            module, _, name = target.rpartition(".")
+            there = importlib.import_module(target) if name in ("modality", "walls") else getattr(
+                importlib.import_module(module), name)
+            assert getattr(importlib.import_module(place), name) is there, target
+
+
+def test_names_that_have_moved_are_where_the_change_log_says():
+    moved = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8").partition("### Names that have moved")[2]
+    rows = re.findall(r"^\| (`.*`) \| `(neorl\.[\w.]*)` \|$", moved, re.MULTILINE)
+    assert len(rows) == 10
+    for names, place in rows:
+        there = importlib.import_module(place)
+        for name in re.findall(r"`([\w.]+)`", names):
+            if name.startswith("neorl."):
+                with pytest.raises(ImportError):
+                    importlib.import_module(name)
+            else:
+                assert hasattr(there, name) and name not in dir(neorl), name
+
+
+def test_the_commands_stand_right_below_the_picture():
+    lines = README.splitlines()
+    assert [line for line in lines if line.startswith("## ")][0] == "## Two commands"
+    assert max(lines.index(line) for line in lines if re.match("make (book|test) ", line)) < 20
 
 
 def test_readers_are_sent_to_pages_by_the_titles_that_these_have():
