@@ -13,7 +13,7 @@ AGENT = "multimodal([3, 5], learning=Learning(learning_rate=0.1, discount=0.9, m
 @pytest.fixture(scope="module")
 def page():
     """The page with an agent that learns quickly."""
-    return executed("chapter_1", (("multimodal()", AGENT), ("import (Run", "import (Learning, Run")),
+    return executed("chapter_1", (("multimodal()", AGENT), ("import Run", "import Learning, Run")),
                     runs=6, steps=20_000, seed=4)
 
 
