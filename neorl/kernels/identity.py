@@ -197,6 +197,11 @@ def identity(value):
                      "cannot be read")
 
 
+def digest_of(value):
+    """A digest of `identity`, which raises what that raises."""
+    return hashlib.sha256(identity(value).encode()).hexdigest()
+
+
 def is_ours(value):
     """Whether a function or a class is of this package."""
     return str(value.__module__).partition(".")[0] == "neorl"

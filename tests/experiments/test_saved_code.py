@@ -17,7 +17,6 @@ from saved_files import rewrite
 from neorl import Condition, Learner, Result, Run, WaterWorld, place_cells, simulate
 from neorl.experiments.bins import new_bins
 from neorl.kernels.kernel import jit_is_off
-from neorl.worlds.former import FormerWorld
 
 ROOMS = '''
 from dataclasses import dataclass
@@ -72,10 +71,9 @@ def agent():
                  policy=Policy(0.0, choose=policy(argument, 1)))
 '''
 AT_FIRST = {"fps": 5, "rules": 1.0, "pays": 1.0, "credit": 1.0, "axis": 1.0, "argument": 1, "policy": 1}
-NAMES = {"fps": ("world", "Room", " in its fps"), "rules": ("world", "Room", " in its rules"),
-         "pays": ("world", "Room", " in its step"), "credit": ("agent.learning.credit", "credit", ""),
-         "axis": ("agent.nodes[0].modality.axes[1].of", "axis", ""),
-         "argument": ("agent.policy.choose.of[0]", "argument", ""), "policy": ("agent.policy.choose", "policy", "")}
+NAMES = {"fps": ("world", "Room"), "rules": ("world", "Room"), "pays": ("world", "Room"),
+         "credit": ("agent.learning.credit", "credit"), "axis": ("agent.nodes[0].modality.axes[1].of", "axis"),
+         "argument": ("agent.policy.choose.of[0]", "argument"), "policy": ("agent.policy.choose", "policy")}
 SAYS_WHERE = "can be read again by .*rooms.py alone, where __main__:.* stands: to read it elsewhere, move that to a mod"
 ONCE = [part for part in NAMES if part not in ("fps", "rules")]  # each part once
 
@@ -147,12 +145,12 @@ def originals(tmp_path_factory):
 def case(request, originals, programs):
     """The folder of what was saved; the result and its key; the path of the part that has changed; a pattern of it."""
     module, part, change = request.param
-    path, name, within = NAMES[part]
+    path, name = NAMES[part]
     program = programs(module, **{part: AT_FIRST[part] + 1} if change != "absent" else {})
     if change == "absent":
         delattr(program, name)
-    how = f"cannot be found: .*{name}" if change == "absent" else f"has changed{within}"
-    return *originals[module], path, re.escape(f"{path} ({module}:{name}") + rf"(, then of .*rooms.py)?\) {how}"
+    how = f"cannot be found: .*{name}" if change == "absent" else "has changed, or another Python has compiled it"
+    return *originals[module], path, f"{re.escape(f'{path} ({module}:{name})')} {how}"
 
 
 @pytest.mark.parametrize("kind", [Run, Learner])
@@ -209,18 +207,12 @@ def test_a_saved_world_of_the_main_program_says_where_it_can_be_read_again(progr
         programs("__main__").Room().save(tmp_path / "room.json")
 
 
-@pytest.mark.parametrize("forge, message", [
-    (lambda code: code["world"].update(python="3.9"), r"cannot be compared: Python 3.9 has compiled it, and this is 3"),
-    (None, "the digests of rooms:axis must be in the file, but are not: an earlier neorl has written it")])
-def test_code_that_cannot_be_compared_is_refused_with_the_reason(programs, tmp_path, forge, message):
+def test_code_without_a_digest_is_refused_with_the_reason(programs, tmp_path):
     saved(programs(), tmp_path)
-    programs(pays=2.0)
-    for kind in ("Run", "Result"):
-        rewrite(tmp_path / kind, lambda about, _: forge(about["code"]) if forge else about.pop("code"))
-    with pytest.raises(ValueError, match=message):
-        Run.load(tmp_path / "Run")
-    with pytest.warns(RuntimeWarning, match=message) if forge else pytest.raises(ValueError, match=message):
-        assert isinstance(Result.load(tmp_path / "Result").world, FormerWorld)
+    for kind in (Run, Result):
+        rewrite(tmp_path / kind.__name__, lambda about, _: about.pop("code"))
+        with pytest.raises(ValueError, match=r"the digest of .* \(rooms:axis\) must be in the file, but is not: an"):
+            kind.load(tmp_path / kind.__name__)
 
 
 def test_what_is_of_neorl_alone_is_read_without_digests(tmp_path):
@@ -232,7 +224,7 @@ def test_what_is_of_neorl_alone_is_read_without_digests(tmp_path):
 def test_what_stands_for_former_code_says_so_when_it_is_run(programs, tmp_path):
     saved(programs(), tmp_path)
     programs(policy=2, pays=2.0)
-    with pytest.warns(RuntimeWarning, match="agent.policy.choose .* has changed; world .* has changed in its step"):
+    with pytest.warns(RuntimeWarning, match="agent.policy.choose .* has changed.*; world .* has changed"):
         former = Result.load(tmp_path / "Result")
     learner = Learner(place_cells([2]), 1, ("green", "red"))
     for run in (lambda: Run(former.agent, WaterWorld()), lambda: Learner(former.agent),
@@ -264,4 +256,4 @@ def test_two_programs_with_a_class_of_one_name_are_not_confused(tmp_path):
     said = ran("one", "save")
     assert said.startswith("100.0") and "run.npz can be read again by" in said and "one.py:" in said
     assert ran("one", "load", jit=False).startswith("100.0")  # the same code, compiled or not
-    assert re.search(r"world \(__main__:Room, then of .*one.py\) has changed in its rules", ran("other", "load"))
+    assert re.search(r"world \(__main__:Room\) has changed", ran("other", "load"))
