@@ -12,6 +12,7 @@ A name without a module is one that the package has given to `name_shortly`. A n
 run code just as a program can.
 """
 
+import contextlib
 import difflib
 import functools
 import importlib
@@ -32,7 +33,8 @@ from neorl.common.extras import require
 from neorl.common.files import write_whole
 from neorl.common.warn import warn
 from neorl.core.modality import MODALITIES
-from neorl.kernels.identity import name_of
+from neorl.kernels.identity import identity, name_of
+from neorl.kernels.pickling import AGAIN
 
 SUFFIXES = (".toml", ".json")
 SHORT_NAMES: dict[str, Any] = {}  # what files name without a module
@@ -127,16 +129,18 @@ def described(value, expected=object, path=""):
     Raises ValueError for values that cannot be found by name, or that are not plain data.
     """
     if is_dataclass(value) and not isinstance(value, type):
-        kind = type(value)
-        named = {} if kind in _options(expected) else {"is": _name(kind, path)}
-        return named | {name: described(getattr(value, name), hint, _at(path, name))
+        kind, given = type(value), {name: getattr(value, name) for name in _taken(type(value))}
+        named = {} if kind in _options(expected) else {"is": _name(kind, path, value, lambda now: now(**given))}
+        return named | {name: described(given[name], hint, _at(path, name))
                         for name, (hint, default) in _taken(kind).items()
-                        if default is not None or getattr(value, name) is not None}
+                        if default is not None or given[name] is not None}
     if isinstance(value, tuple | list):
         return [described(each, hint, f"{path}[{i}]") for i, (each, hint) in enumerate(_members(value, expected))]
     if callable(value):
-        origin, arguments = getattr(value, "origin", (value, None))
-        return {"kernel": _name(origin, path)} | ({} if arguments is None else {"of": described(arguments)})
+        if not hasattr(value, "origin"):
+            return {"kernel": _name(value, path, value, lambda now: now)}
+        make, arguments = value.origin
+        return {"kernel": _name(make, path, value, lambda now: now(*arguments)), "of": described(arguments)}
     if type(value) in PLAIN:
         return value
     raise checks.error(path or "the value", "a number, a text, a tuple, a dataclass or a kernel to be saved", value)
@@ -319,16 +323,25 @@ def _at(path, name):
     return f"{path}.{name}" if path else str(name)
 
 
-def _name(value, path):
-    """The name by which a class, kernel or function can be found."""
-    for name in (value.__qualname__, name_of(value)):
-        try:
-            if _found(name, path) is value:
+def _name(code, path, value, made_by):
+    """The name of a class, a kernel or a maker of kernels, which stands for it, or for the same defined again.
+
+    value, made_by: what is made with the code, and a function that makes it with what has the name now.
+    """
+    for name in (code.__qualname__, name_of(code)):
+        with contextlib.suppress(ValueError, AttributeError):
+            now = _found(name, path)
+            if now is code and (code is value or code is type(value)):  # not a maker, which may make another now
                 return name
-        except ValueError:
-            continue
-    raise checks.error(path or "the value", "a kernel that a module defines or a neorl.custom.kernel_maker has made, "
-                       "or a class that a module defines, to be saved", value)
+            if name_of(now) == name_of(code):
+                break
+    else:
+        raise checks.error(path or "the value", "a kernel that a module defines or a neorl.custom.kernel_maker has "
+                           "made, or a class that a module defines, to be saved", code)
+    with contextlib.suppress(Exception):  # of any class: the user's code is run
+        if (again := made_by(now)) is value or identity(again) == identity(value):
+            return name
+    raise ValueError(f"{path or 'the value'} cannot be saved: {AGAIN.format(name)}")
 
 
 def _found(name, path):

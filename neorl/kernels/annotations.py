@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, get_args, get_type
 import numpy as np
 
 from neorl.common import checks
+from neorl.kernels.identity import name_of
 
 
 def array(dtype, *shape):
@@ -73,6 +74,14 @@ def new_tuple(kind, sizes, known):
 def is_tuple(value):
     """Whether a value, or a type, is a named tuple."""
     return hasattr(value, "_fields")
+
+
+def is_again(kind, other):
+    """Whether two kinds are one kind of named tuples, perhaps defined again: of the same name and the same fields."""
+    if kind is other or not (is_tuple(kind) and is_tuple(other)):
+        return kind is other
+    return (name_of(kind), kind._fields) == (name_of(other), other._fields) and all(
+        field == again or is_again(field, again) for field, again in zip(fields(kind).values(), fields(other).values()))
 
 
 def mapped(function, values):

@@ -27,16 +27,15 @@ import sys
 import threading
 from collections.abc import Callable
 from typing import Any
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from neorl.common import checks
 from neorl.kernels.errors import not_compiled
-from neorl.kernels.identity import Reading
+from neorl.kernels.identity import Reading, digest_of, is_ours
+from neorl.kernels.pickling import definition_of, itself, refused, restored
 
 _making, _interpreting = threading.RLock(), threading.local()
-_kernels = WeakKeyDictionary[type, Any]()  # by the class that stands for them
 _of_makers: dict[tuple, Any] = {}  # kernels, by origin and identity
 
 
@@ -52,21 +51,21 @@ class Kernel:
         self._reading, self._dispatchers = None, {}
 
     def __reduce_ex__(self, protocol):
-        if protocol < 4 and not hasattr(self, "origin"):
-            return self.__name__  # older protocols know no names of attributes
-        return getattr(self, "origin", (_kernel_of, (self.definition,)))
+        make, values = getattr(self, "origin", (self, None))
+        if make is not self and is_ours(make):
+            return make, values
+        digest = None if is_ours(self) else digest_of(self)
+        if make is not self and digest != digest_of(make(*values)):
+            raise refused(make)
+        return restored, (make._definition, values, digest)
 
     @functools.cached_property
-    def definition(self):
-        """A class that stands for the kernel where it is pickled: as an attribute, another process finds it by name.
+    def _definition(self):
+        """What stands for the kernel where it is pickled."""
+        return definition_of(self, Kernel, self.py_func, self.is_inlined)
 
-        cloudpickle saves it by its content where it so saves other classes of the same module, such as those that the
-        kernel's arguments are instances of: both must come to be the same in the other process.
-        """
-        definition = type("definition", (), {"made_of": (self.py_func, self.is_inlined), "__module__": self.__module__,
-                                             "__qualname__": f"{self.__qualname__}.definition"})
-        _kernels[definition] = self
-        return definition
+    def __deepcopy__(self, memo):
+        return self
 
     def __repr__(self):
         return f"<kernel {full_name(self)}>"
@@ -131,14 +130,6 @@ class Kernel:
         finally:
             if collects:
                 gc.enable()
-
-
-def _kernel_of(definition):
-    """The kernel that a class stands for."""
-    if definition not in _kernels:  # from another process
-        kernel = Kernel(*definition.made_of)
-        kernel.definition, _kernels[definition] = definition, kernel
-    return _kernels[definition]
 
 
 @contextlib.contextmanager
@@ -249,7 +240,7 @@ def kernel_maker(function: Callable) -> Any:
         kernel.origin = make, values
         return _first_of(make, values, kernel)
 
-    make.makes_kernels = True  # type: ignore[attr-defined]
+    make.makes_kernels, make._definition = True, definition_of(make, itself, make)  # type: ignore[attr-defined]
     return make
 
 

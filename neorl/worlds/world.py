@@ -23,6 +23,8 @@ With ``NUMBA_DISABLE_JIT=1`` in the environment, the kernels are the Python func
 the same bits: `breakpoint` and `print` work in them, and an index out of range raises IndexError instead of crashing.
 """
 
+import contextlib
+import copyreg
 import inspect
 from typing import Any, NamedTuple
 
@@ -33,9 +35,11 @@ from neorl.common import checks
 from neorl.core.scene import Actions, Scene
 from neorl.core.stream import new_stream
 from neorl.description import Described
-from neorl.kernels.annotations import fields, is_tuple, length, new_tuple
+from neorl.kernels.annotations import fields, is_again, is_tuple, length, new_tuple
 from neorl.kernels.execution import execute
+from neorl.kernels.identity import digest_of, is_ours, name_of
 from neorl.kernels.kernel import Kernel, check_kernel, full_name, function_of, kernel
+from neorl.kernels.pickling import AGAIN, check_digest, pickle_again, present, refused
 
 STREAM = ("uint64", (4,))  # the type and the shape of a stream
 
@@ -61,7 +65,8 @@ class _Checking(type):
         world = super().__call__(*given, **by_name)
         if world.dynamics is not None:
             check_definition(world)
-            checked_rules(world)
+            pickle_again(world.State)
+            pickle_again(type(checked_rules(world)))
         return world
 
     @property
@@ -94,10 +99,21 @@ class World(Described, metaclass=_Checking):
                 raise TypeError(f"{cls.__name__} must not have a method {name}, which runs would not call: the {name} "
                                 "of a world is a neorl.kernel in its dynamics; give the method another name")
 
+    def __reduce_ex__(self, protocol: Any) -> Any:  # with a digest of what `pickle` would leave to the class
+        make, arguments, state = (*super().__reduce_ex__(protocol), None)[:3]
+        if is_ours(type(self)) or self.dynamics is None:
+            return make, arguments, state
+        digest, now = digest_of(self.determinants), present(type(self))
+        if now is not type(self):
+            with contextlib.suppress(Exception):  # of any class: the user's code is run
+                _unpickled(digest, make, again := (now, *arguments[1:]), state)
+                arguments = again
+        return _unpickled, (digest, make, arguments, state)
+
     @property
     def determinants(self) -> tuple[Any, ...]:
         """Everything that runs take from the world besides its fields, for the keys of their results."""
-        return (self.dynamics, self.rules, self.kinds, self.actions, self.things, self.size, self.fps,
+        return (self.dynamics, checked_rules(self), self.kinds, self.actions, self.things, self.size, self.fps,
                 new_tuple(self.State, self.sizes, {}))
 
     @property
@@ -145,7 +161,7 @@ class World(Described, metaclass=_Checking):
 
     def check_state(self, state: Any) -> None:
         """Raise ValueError unless the arrays of a state fit this world, and are finite."""
-        checks.instance("state", state, self.State)
+        check_kind("state", state, self.State)
         check_arrays("state", state, self.sizes)
         kinds, met = state.scene.kinds, state.scene.met
         if kinds.size and not (-1 <= kinds.min() and kinds.max() < len(self.kinds)):
@@ -153,6 +169,26 @@ class World(Described, metaclass=_Checking):
         if met.size and not (0 <= met.min() and met.max() <= len(self.kinds)):
             raise checks.error("state.scene.met", "0, or for a thing that was met 1 + the number of its kind among "
                                f"{self.kinds}", met)
+
+
+def _pickled_class(kind):
+    if present(kind) is not kind:
+        raise refused(kind)
+    return kind.__qualname__
+
+
+copyreg.pickle(_Checking, _pickled_class)
+
+
+def _unpickled(digest, make, arguments, state):
+    """A world that was pickled. Raises ValueError if its determinants have another digest."""
+    world = make(*arguments)
+    if hasattr(world, "__setstate__"):
+        world.__setstate__(state)
+    elif state is not None:
+        vars(world).update(state)
+    check_digest(type(world), lambda: world.determinants, digest)
+    return world
 
 
 def check_definition(world):
@@ -199,7 +235,8 @@ def check_rules(rules, kind, sizes, path="rules"):
 
     sizes: of dimensions, by name; a name that is not among them stands for the length where it first occurs.
     """
-    for name, field in fields(type(checks.instance(path, rules, kind))).items():
+    check_kind(path, rules, kind)
+    for name, field in fields(type(rules)).items():
         value = getattr(rules, name)
         if is_tuple(field):
             check_rules(value, field, sizes, f"{path}.{name}")
@@ -226,6 +263,13 @@ def _is_as_annotated(value, dtype, shape, sizes):
     return value.shape == tuple(length(each, sizes) for each in shape)
 
 
+def check_kind(name, value, kind):
+    """Raise ValueError unless a value is a named tuple of a kind, perhaps as it was before it was defined again."""
+    if not isinstance(value, kind) and not is_again(type(value), kind):
+        remedy = AGAIN.format(name_of(kind)) if name_of(type(value)) == name_of(kind) else ""
+        raise checks.error(name, checks.with_article(kind.__name__), value, remedy)
+
+
 def check_outcome(world, kernel, state, reward=0.0):
     """Raise ValueError, which names the kernel, unless the state that it left and the reward keep the rules."""
     try:
@@ -240,7 +284,8 @@ def check_arrays(name, values, sizes):
     for field, kind in fields(type(values)).items():
         value, path = getattr(values, field), f"{name}.{field}"
         if is_tuple(kind):
-            check_arrays(path, checks.instance(path, value, kind), sizes)
+            check_kind(path, value, kind)
+            check_arrays(path, value, sizes)
             continue
         dtype, shape = kind
         expected = tuple(length(each, sizes) for each in shape)

@@ -64,7 +64,7 @@ def test_a_worker_process_that_imports_an_edited_program_is_refused(tmp_path, mo
     try:
         edited.write(tmp_path, FIRST | {"helper": 10})
         with (ProcessPoolExecutor(1, get_context("spawn")) as pool,
-              pytest.raises(RuntimeError, match="must have the sources of neorl and the kernels and constants")):
+              pytest.raises(RuntimeError, match="program:Mine must have the code that it was pickled with, but")):
             sweep([Condition(program.agent(), program.Mine(), 2, 1)], pool, progress=False)
     finally:
         del sys.modules["program"], sys.modules["helpers"]
