@@ -233,9 +233,9 @@ def _built(names, at_once):
 
 def _built_in_a_process_of_its_own(name):
     require("ziglang", extra="wasm")
-    environment = {key: value for key, value in os.environ.items() if key != "NUMBA_DISABLE_JIT"}
+    settings = {"NUMBA_DISABLE_JIT": "0", "NUMBA_CPU_NAME": "generic", "NUMBA_OPT": "0"}
     built = subprocess.run([sys.executable, "-m", "neorl.browser.wasm", name], capture_output=True,
-                           env=environment | {"NUMBA_CPU_NAME": "generic", "NUMBA_OPT": "0"})
+                           env=os.environ | settings)
     if built.returncode:
         raise RuntimeError(f"the WebAssembly module was not built:\n{built.stderr.decode()}")
     digest = _digest(name)

@@ -18,11 +18,13 @@ def execute(kernel, *arguments):
     A named tuple whose kind is `tabled`, and that the kernel annotates as such, is passed as a table.
 
     Raises TypeError for one that is only inlined into others, or that numba cannot compile, ValueError for one of the
-    user's that raises. Both name the kernel that is to blame.
+    user's that raises. Both name the kernel that is to blame. Raises RuntimeError if numba's compiler was switched off
+    or on since the package was imported.
     """
     if getattr(kernel, "is_inlined", False):
         raise TypeError(f"{kernel.__module__}.{kernel.__name__} must be called by kernels, into which it is inlined, "
                         "not by execute")
+    jit_is_off()  # or it raises
     try:
         if not isinstance(kernel, Kernel):
             return interpret(kernel, *arguments)

@@ -2,7 +2,7 @@
 
 A *kernel* is a function compiled by numba. Every number that the project shows is computed by kernels, so a run must be
 the same to the last bit on any machine, on any number of threads, and with the compiler switched off
-(``NUMBA_DISABLE_JIT=1``). This holds as long as a kernel keeps to these rules:
+(``NUMBA_DISABLE_JIT=1`` when neorl is imported). This holds as long as a kernel keeps to these rules:
 
 - it takes flat arrays, scalars and named tuples of them, and does not allocate, raise, print or look anything up;
 - it uses only ``+ - * /``, square root, floor and comparisons, whose results IEEE 754 fixes, and no ``fastmath``;
@@ -198,10 +198,28 @@ def _read(kernel):
 
 
 def jit_is_off():
-    """Whether kernels stay Python functions: by ``NUMBA_DISABLE_JIT=1``, or by numba's setting once it is imported."""
-    if "numba" in sys.modules:
-        return bool(sys.modules["numba"].config.DISABLE_JIT)
-    return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
+    """Whether kernels stay Python functions: as numba's switch was when the first of this package was made.
+
+    Raises RuntimeError if it has been switched since.
+    """
+    is_off = _was_off()
+    now = getattr(sys.modules.get("numba.core.config"), "DISABLE_JIT", is_off)
+    if bool(now) != is_off:
+        raise RuntimeError(f"numba's compiler must stay {'off' if is_off else 'on'}, as it was when neorl was "
+                           f"imported, but numba.config.DISABLE_JIT is {now} now: set it back, or restart Python with "
+                           f"NUMBA_DISABLE_JIT={int(not is_off)} in the environment")
+    return is_off
+
+
+@functools.cache
+def _was_off():
+    """numba's own reading of its switch; it takes long to import, and is not if there is but one reading."""
+    said = os.environ.get("NUMBA_DISABLE_JIT", "" if os.path.exists(".numba_config.yaml") else "0")
+    if said in ("0", "1") and "numba" not in sys.modules:
+        return said == "1"
+    from numba.core import config
+
+    return bool(config.DISABLE_JIT)
 
 
 def check_kernel(name, value):
