@@ -56,7 +56,7 @@ page = $(1:%=$(CHAPTERS)/%.ipynb)
 
 book: .venv/ready
 	@$(MAKE) --no-print-directory --keep-going --jobs=$(JOBS) $(HTML)
-	@echo "the book is at file://$(CURDIR)/$(HTML)"
+	@$(BIN)/python -c "from pathlib import Path; print('the book is at', Path('$(HTML)').absolute().as_uri())"
 
 # Threads of linear algebra that wait for each other beside another notebook took fifty times as long as one thread.
 book test: export OPENBLAS_NUM_THREADS := 1

@@ -22,7 +22,6 @@ import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from os import PathLike
-from pathlib import Path
 from types import UnionType
 from typing import Any, Self, Union, get_args, get_origin, get_type_hints
 
@@ -73,7 +72,7 @@ class Described:
         Raises ValueError for any other name, and for values that `to_dict` refuses. Warns of what stands in
         ``__main__``, which other programs cannot read again.
         """
-        suffix, data = _suffix(path), self.to_dict()
+        (file, suffix), data = _file(path), self.to_dict()
         if suffix == ".json":
             text = json.dumps(data, indent=1, ensure_ascii=False, allow_nan=False)
         else:
@@ -81,7 +80,7 @@ class Described:
                 text = require("tomli_w", extra="data").dumps(data)
             except TypeError as error:  # None
                 raise ValueError(f"{path} cannot be written: {error}; choose a name that ends in .json") from error
-        write_whole(path, text.encode())
+        write_whole(file, text.encode())
         warn_of_main(path, data)
 
     @classmethod
@@ -93,9 +92,9 @@ class Described:
         """
         import tomllib  # here, so that importing the package stays fast
 
-        suffix = _suffix(path)
+        file, suffix = _file(path)
         try:
-            text = Path(path).read_text(encoding="utf-8-sig")  # some editors begin with a mark
+            text = file.read_text(encoding="utf-8-sig")  # some editors begin with a mark
             if "\0" in text:  # of UTF-16 without a mark
                 raise UnicodeError("it contains null characters")
             data = tomllib.loads(text) if suffix == ".toml" else json.loads(text)
@@ -116,10 +115,11 @@ def name_shortly(*values):
     SHORT_NAMES.update((each.__name__, each) for each in values)
 
 
-def _suffix(path):
-    suffix = checks.path("path", path).suffix.lower()
-    if suffix in SUFFIXES:
-        return suffix
+def _file(path):
+    """A file, and the suffix of its name."""
+    file = checks.path("path", path)
+    if file.suffix.lower() in SUFFIXES:
+        return file, file.suffix.lower()
     raise checks.error("path", f"a name that ends in {' or '.join(SUFFIXES)}", path)
 
 
@@ -150,7 +150,7 @@ def restored(data, expected=object, path=""):
     """The value described by plain data. expected: its type. Raises ValueError, with the path, if they do not fit."""
     if isinstance(data, np.generic) or isinstance(data, np.ndarray) and data.ndim == 0:
         return data.item()
-    if isinstance(data, dict):
+    if isinstance(data, Mapping):
         return _kernel(data, path) if "kernel" in data else _instance(data, expected, path)
     if isinstance(data, list | tuple | np.ndarray):
         values = [restored(each, hint, f"{path}[{i}]") for i, (each, hint) in enumerate(_members(data, expected))]

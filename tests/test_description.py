@@ -4,19 +4,23 @@ import codecs
 import json
 import sys
 import types
+from collections import ChainMap, UserDict
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from neorl import (Agent, Condition, Desire, Learning, Node, Place, Policy, WaterWorld, World, brownian, kernel,
-                   multimodal, network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
+from neorl import (Agent, Condition, Desire, Learner, Learning, Node, Place, Policy, Result, Run, WaterWorld, World,
+                   brownian, kernel, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
+                   place_cells)
 from neorl.custom import Axis, Modality, softmax
 from neorl.worlds import Arena
 from neorl.core.modality import HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, MODALITIES, PLACE_CELL
 from neorl.description import described, restored
+from neorl.experiments.bins import new_bins
 
 PAPERS = (place_cells, object_vector_cells, multimodal, network_a, network_b, network_c, network_d)
 SHARES = st.floats(0, 1)
@@ -159,6 +163,25 @@ def test_what_is_wrong_is_named_by_its_path(tmp_path, change, message):
     (tmp_path / "condition.json").write_text(json.dumps(FINE | change))
     with pytest.raises(ValueError, match=f"^{tmp_path / 'condition.json'}: {message.replace('^', '')}"):
         Condition.load(tmp_path / "condition.json")
+
+
+@pytest.mark.parametrize("kind", [MappingProxyType, UserDict, ChainMap])
+def test_any_mapping_is_a_table(kind):
+    data = kind(FINE | {"agent": kind({"is": "place_cells", "policy": kind({"choose": kind(
+        {"kernel": "softmax", "of": [0.5]})})})})
+    assert Condition.from_dict(data).agent == place_cells(policy=Policy(choose=softmax(0.5)))
+
+
+def test_a_path_may_begin_at_the_users_home(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("USERPROFILE", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    agent = place_cells([2])
+    result = Result(Condition(agent, WaterWorld(), 20, 1), *new_bins(WaterWorld(), 1, 20))
+    for made in (agent, result, Run(agent, WaterWorld()), Learner(agent, 1, ("green", "red"))):
+        made.save("~/made.json")
+        assert isinstance(type(made).load("~/made.json"), type(made)) and (tmp_path / "made.json").exists()
+    assert not (tmp_path / "~").exists()
 
 
 def test_data_that_contain_themselves_are_refused():

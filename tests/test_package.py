@@ -1,5 +1,6 @@
 """The package as a whole: static checks, imports between its rooms, optional dependencies and the installation."""
 
+import importlib
 import pkgutil
 import re
 import shutil
@@ -9,6 +10,7 @@ import tomllib
 from pathlib import Path
 
 import grimp
+import numpy as np
 import pytest
 
 import neorl
@@ -26,6 +28,12 @@ def test_what_takes_long_is_imported_when_it_is_used(imported, when_used):
     listed = subprocess.run([sys.executable, "-c", f"import {imported}, sys; print(*sys.modules)"],
                             capture_output=True, text=True, check=True)
     assert not set(when_used) & set(listed.stdout.split())
+
+
+def test_an_older_numpy_is_named(monkeypatch):
+    monkeypatch.setattr(np, "__version__", "1.26.4")
+    with pytest.raises(ImportError, match="neorl must have numpy 2.0 or later, but .*numpy.* is of 1.26.4: update it"):
+        importlib.reload(neorl.common)
 
 
 def test_the_version_is_the_same_everywhere():

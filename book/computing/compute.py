@@ -15,6 +15,7 @@ from pathlib import Path
 
 import nbformat
 import papermill
+import psutil
 from nbclient.exceptions import DeadKernelError
 from papermill.exceptions import PapermillExecutionError, strip_color
 from traitlets.config import Config
@@ -44,7 +45,7 @@ def main():
     except PapermillExecutionError as error:
         sys.exit("\n".join([*map(strip_color, error.traceback),
                             f"{notebook.name}, In [{error.exec_count}]: {error.ename}: {error.evalue}",
-                            f"{CHAPTERS / f'.{notebook.stem}'} has the notebook up to this cell"]))
+                            f"{work_of(notebook)} has the notebook up to this cell"]))
     except DeadKernelError as error:
         sys.exit(f"{notebook.name}: its kernel has died, perhaps for lack of memory ({error})")
     except (OSError, ValueError) as error:
@@ -62,8 +63,10 @@ def compute(notebook, parameters):
     parameters = of_notebook(notebook, parameters)
     given = ", ".join(f"{name} {value}" for name, value in parameters.items()) or "its own parameters"
     print(f"{notebook.name}: {given}", flush=True)
-    work = CHAPTERS / f".{notebook.stem}"  # always the same place, so that the remains of a killed process are cleared
-    shutil.rmtree(work, ignore_errors=True)
+    work = work_of(notebook)
+    for remains in CHAPTERS.glob(f".{notebook.stem}-*"):
+        if remains == work or not psutil.pid_exists(int(remains.name.rpartition("-")[2])):  # its process was killed
+            shutil.rmtree(remains, ignore_errors=True)
     work.mkdir(parents=True)
     claims_of(notebook).unlink(missing_ok=True)
     execute(notebook, work / notebook.name, parameters)
@@ -90,6 +93,11 @@ def compute(notebook, parameters):
         os.replace(path, CHAPTERS / path.name)
     work.rmdir()
     print(f"{notebook.name}: {time.time() - began:.0f} s", flush=True)
+
+
+def work_of(notebook):
+    """Where this process computes a page, which another may do at the same time."""
+    return CHAPTERS / f".{notebook.stem}-{os.getpid()}"
 
 
 def of_notebook(notebook, parameters):

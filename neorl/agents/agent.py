@@ -64,6 +64,8 @@ class Node(checks.Final):
 
     def __post_init__(self):
         checks.check_fields(self)
+        if not self.name:
+            raise checks.error("name", "one character or more", self.name)
         checks.assign(self, resolutions=checks.several("resolutions", self.resolutions))
         if not self.resolutions:
             raise checks.error("resolutions", "one integer or more", ())

@@ -9,6 +9,7 @@ magnitude, so that sums and products of several do not overflow; divisors are at
 import contextlib
 import dataclasses
 import functools
+import math
 import numbers
 import operator
 import os
@@ -101,9 +102,21 @@ def flag(name: str, value: Any) -> bool:
 
 def finite(name: str, array: NDArray, at_most: float = LARGEST) -> NDArray:
     """`array`, if all its numbers lie between −`at_most` and `at_most`."""
-    if np.all(np.abs(array) <= at_most):
+    fits = np.abs(array) <= at_most
+    if np.all(fits):
         return array
-    raise error(name, f"finite numbers from {-at_most:g} to {at_most:g}", array)
+    raise error(name, f"finite numbers from {-at_most:g} to {at_most:g}", array, _where(name, array, fits))
+
+
+def _where(name, array, fits):
+    """How many rows of an array do not fit, and the first of them."""
+    if array.ndim == 0:
+        return ""
+    wrong = np.argwhere(~(fits if array.ndim == 1 else fits.all(axis=-1)))
+    first = tuple(map(int, wrong[0]))
+    return (f"{len(wrong):,} of its {math.prod(array.shape[:max(array.ndim - 1, 1)]):,} "
+            f"{'numbers' if array.ndim == 1 else 'rows'} are not, the first of them "
+            f"{name}[{', '.join(map(str, first))}], {shown(np.asarray(array[first]).tolist())}")
 
 
 def doubles(name: str, values: Any, at_most: float = LARGEST) -> NDArray[np.float64]:
@@ -113,7 +126,9 @@ def doubles(name: str, values: Any, at_most: float = LARGEST) -> NDArray[np.floa
         with contextlib.suppress(TypeError, ValueError, OverflowError):
             array = array.astype(float)
     if array.dtype.kind not in "fiub":
-        raise error(name, "numbers, in lists of equal lengths", values)
+        fits = np.array([isinstance(each, numbers.Real) for each in array.flat], bool).reshape(array.shape)
+        raise error(name, "numbers, in lists of equal lengths", values,
+                    _where(name, array, fits) if array.dtype.kind == "O" and array.size else "")
     with np.errstate(over="ignore"):  # wider floats than doubles, which may become infinite
         return finite(name, np.array(array, float, order="C"), at_most)
 
@@ -159,10 +174,10 @@ def plain(value):
 
 
 def path(name: str, value: Any) -> Path:
-    """`value` as a `pathlib.Path`, if it is one, or a string that can name a file."""
+    """`value` as a `pathlib.Path`, if it is one, or a string that can name a file; ~ is the user's home folder."""
     with contextlib.suppress(TypeError, ValueError):
         if b"\0" not in os.fsencode(Path(value)):
-            return Path(value)
+            return Path(os.path.expanduser(value))
     raise error(name, "the path of a file", value)
 
 

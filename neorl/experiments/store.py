@@ -80,8 +80,8 @@ def _taken(write, *what):
     try:
         write(*what)
     except OSError as error:
-        warn(f"{files.cache_folder()} takes no results ({error.strerror}): they stay in memory, and are lost when this "
-             "process ends")
+        warn(f"{files.cache_folder()} takes no results ({error.strerror or error}): they stay in memory, and are lost "
+             "when this process ends")
         return False
     return True
 

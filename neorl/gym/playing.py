@@ -68,7 +68,7 @@ def play(agent: Agent | Learner, env: Any, scene: Callable[[Any, dict[str, Any]]
     seed: integer ≥ 0, of the environment and of the agent's random numbers.
     surroundings: things, kinds, size and fps, as in `Learner`, for an `Agent`.
 
-    Raises ValueError for anything else, and for scenes that do not fit.
+    Raises ValueError for anything else, for scenes that do not fit, and for rewards that are not numbers.
     """
     checks.instance("env", env, gymnasium.Env)
     steps, seed = checks.integer("steps", steps, at_least=0), checks.integer("seed", seed, at_least=0)
@@ -88,7 +88,8 @@ def play(agent: Agent | Learner, env: Any, scene: Callable[[Any, dict[str, Any]]
     rewards, terminated, truncated = np.zeros(steps), np.zeros(steps, bool), np.zeros(steps, bool)
     learner.begin(first)
     for now in range(steps):
-        observation, rewards[now], terminated[now], truncated[now], info = env.step(commands[learner.act()])
+        observation, reward, terminated[now], truncated[now], info = env.step(commands[learner.act()])
+        rewards[now] = checks.real("the reward that env.step returns", +reward if isinstance(reward, bool) else reward)
         learner.observe(_seen(scene, observation, info), float(rewards[now]))
         if (terminated[now] or truncated[now]) and now + 1 < steps:
             learner.begin(_seen(scene, *env.reset()))

@@ -2,6 +2,9 @@
 
 import base64
 import json
+import os
+import subprocess
+import sys
 
 from computing import compute
 from computing import excerpts
@@ -49,7 +52,7 @@ def test_a_page_has_the_values_used_and_links_of_its_own_and_a_failure_leaves_it
     with pytest.raises(SystemExit, match=r"runs != 13(.|\n)*page.ipynb, In \[3\]: AssertionError: "):
         compute.main()
     assert nbformat.read(page, 4) == executed
-    assert (compute.CHAPTERS / ".page" / "page.ipynb").exists()  # shows how far the notebook got
+    assert (compute.work_of(notebook) / "page.ipynb").exists()  # shows how far the notebook got
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -89,6 +92,16 @@ def test_what_a_notebook_has_found_is_beside_its_page(notebook):
     change_last_cell(notebook, "pass")
     compute.compute(notebook, {"runs": 3})
     assert not (compute.CHAPTERS / "page.claims.json").exists()
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_two_processes_compute_a_page_at_once_and_clear_what_a_killed_one_has_left(notebook, monkeypatch):
+    ended = subprocess.Popen([sys.executable, "-c", ""])
+    ended.wait()
+    for pid in (ended.pid, os.getppid()):
+        (compute.CHAPTERS / f".page-{pid}").mkdir(parents=True)
+    compute.compute(notebook, {"runs": 3})
+    assert sorted(path.name for path in compute.CHAPTERS.iterdir()) == [f".page-{os.getppid()}", "page.ipynb"]
 
 
 def test_links_into_the_glossary_become_references_to_its_terms():

@@ -66,6 +66,13 @@ def test_bad_runs_are_refused_before_anything_runs(tmp_path, runs):
     assert not small_book.written(tree)
 
 
+def test_the_address_of_the_book_can_be_opened_whatever_its_folder_is_called(tmp_path):
+    tree = small_book.make_tree(tmp_path / "a book, 100% #1")
+    _, said = small_book.build(tree, 2, "--dry-run", "--old-file=.venv/ready", "book")
+    said = subprocess.run(said.splitlines()[-1], shell=True, cwd=tree, capture_output=True, text=True).stdout
+    assert said == f"the book is at {tmp_path.as_uri()}/a%20book%2C%20100%25%20%231/_build/html/index.html\n"
+
+
 def test_without_runs_a_notebook_has_its_own_number(built):
     _, said = small_book.build(built, "", "--dry-run")
     assert "compute.py notebooks/paper_a.ipynb" in said and "--runs" not in said
@@ -81,18 +88,18 @@ def test_a_notebook_that_raises_is_named_and_the_last_book_stays(built):
     assert small_book.pages(built) == book
 
 
-def wait_for(path, process):
-    """Wait until a path exists or the process has ended."""
-    while not path.exists() and process.poll() is None:
+def wait_for(tree, pattern, process):
+    """Wait until a path of a pattern exists or the process has ended."""
+    while not any(tree.glob(pattern)) and process.poll() is None:
         time.sleep(0.005)
 
 
 def test_a_build_that_is_killed_and_interrupted_ends_with_the_same_book_the_next_time(tmp_path, finished):
     tree, draw = small_book.make_tree(tmp_path / "tree"), random.Random(5)
-    for ending, moment in ((signal.SIGKILL, "book/chapters/.paper_a"),
+    for ending, moment in ((signal.SIGKILL, "book/chapters/.paper_a-*"),
                            (signal.SIGINT, "_build/next/_build/html/index.html")):
         kept, process, started = small_book.written(tree), small_book.start(tree), []
-        wait_for(tree / moment, process)
+        wait_for(tree, moment, process)
         time.sleep(draw.uniform(0, 1))
         if process.poll() is None:
             started = psutil.Process(process.pid).children(recursive=True)

@@ -41,6 +41,7 @@ def scene(**fields):
     (lambda: checks.doubles("x", MASKED), r"x must be free of masked values, but is masked_array\(data=\[--, 0.6\],"),
     (lambda: checks.path("x", "a\0b"), r"x must be the path of a file, but is 'a\\x00b'"),
     (lambda: checks.instance("x", None, Agent), "x must be an Agent, but is None"),
+    (lambda: Node("", PLACE_CELL, [3]), "name must be one character or more, but is ''"),
     (lambda: Agent([Node("PC", PLACE_CELL, [3])], [Desire("green", "PC", 1.0)] * 4_097),
      "desires must be 0 to 4096, each a Desire, but are 4097"),
     (lambda: Axis("position", low=0, high=5e-324), "low must be below high, 5e-324, but is 0.0"),

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pandas
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -183,6 +184,13 @@ def test_the_sectors_of_n4_are_centred_on_east_south_west_and_north():
 
 @pytest.mark.parametrize("modality, points, message", [
     (PLACE_CELL, [np.nan, 0.5], r"points must be finite numbers from -1.79769e\+308 to 1.79769e\+308, but is array\("),
+    (PLACE_CELL, [[0.5, 0.5], [np.nan, 0.5], [0.1, np.inf]],
+     r"(?s)points must be finite .*; 2 of its 3 rows are not, the first of them points\[1\], \[nan, 0.5\]"),
+    (PLACE_CELL, np.full((1_000, 4, 2), -np.inf), r"(?s); 4,000 of its 4,000 rows .* points\[0, 0\], \[-inf, -inf\]"),
+    (PLACE_CELL, [[0.5, 0.5], [0.5, pandas.NA]],
+     r"points must be numbers, in .*; 1 of its 2 rows are not, the first of them points\[1\], \[0.5, <NA>\]"),
+    (SPEED_CELL, [None, 0.5], r"points must be .*; 1 of its 2 numbers are not, the first of them points\[0\], None"),
+    (PLACE_CELL, [[0.5, 0.5], [0.5]], r"points must be numbers, in lists of equal lengths, but is .*0.5\]\]$"),
     (PLACE_CELL, [0.1, 0.2, 0.3], r"points must have the shape \(…, 2\), for x, y, but has \(3,\)"),
     (SPEED_CELL, 0.5, r"points must have the shape \(…, 1\), for speed, but has \(\)")])
 def test_points_of_another_space_are_refused(modality, points, message):

@@ -93,6 +93,18 @@ def test_commands_are_what_the_environment_takes_for_actions():
     assert mirrored.truncated.sum() == 10 and not mirrored.terminated.any()
 
 
+@pytest.mark.parametrize("reward", [None, np.array([1.0]), np.nan, "1"])
+def test_a_reward_that_is_no_number_is_refused(reward):
+    env = gymnasium.wrappers.TransformReward(Cart(), lambda _: reward)
+    with pytest.raises(ValueError, match="the reward that env.step returns must be a finite number from .*, but is "):
+        play(LINE, env, along, steps=2, **COMMANDS)
+
+
+def test_a_truth_counts_as_a_reward():
+    env = gymnasium.wrappers.TransformReward(Cart(), lambda _: True)
+    assert play(LINE, env, along, steps=2, **COMMANDS).rewards.tolist() == [1.0, 1.0]
+
+
 def test_actions_have_the_numbers_of_the_environment_unless_mapped_otherwise():
     unnamed = play(Agent([Node("PC", GRID, [12])]), gymnasium.make("CliffWalking-v1"), square, steps=100)
     assert unnamed.learner.world.actions == Actions(("0", "1", "2", "3"), ((0, 0),) * 4)

@@ -97,6 +97,15 @@ def test_a_damaged_file_is_noticed_and_computed_again(cache_folder, lived, damag
     assert lived == [0, 1, 2, 0, 1, 2]
 
 
+def test_a_folder_in_the_place_of_a_file_is_named(cache_folder):
+    once(SHORT)
+    (path,) = paths_of(SHORT)
+    path.unlink()
+    path.mkdir()
+    with pytest.warns(RuntimeWarning, match=rf"takes no results \({path} must be a file, but is a folder: .*\): they"):
+        assert_whole(once(SHORT), SHORT)
+
+
 @pytest.mark.parametrize("arrays", [
     {"rewards": np.zeros((3, 50), np.float32)}, {"rewards": np.zeros((3, 50)), "hits": np.zeros((3, 50, 2), np.int16)},
     {"rewards": np.zeros((2, 50), np.float32), "hits": np.zeros((2, 50, 2), np.int16)}],
