@@ -3,6 +3,7 @@
 #                                                         READING=letter for the reading of the thesis to the letter
 #                                                         JOBS=2 notebooks at a time, of up to 4 GB each
 # make test   run the tests                               WORKERS=4 processes, since tests of pages wait for a browser
+# make types  check the types of the public modules and of typical uses of them
 # make package test the package as installed from WHEEL=dist/*.whl, or from one that is built, with ARGS="of pytest"
 # The tests that `make test` leaves out, since they take long, are marked, and each mark has a target:
 # make deep   begin the stored runs of deep learners again; installs their packages, among them PyTorch, into .venv
@@ -52,7 +53,7 @@ page = $(1:%=$(CHAPTERS)/%.ipynb)
 .DEFAULT_GOAL := book
 # Files that are replaced only by complete ones, so make need not remove them when it is interrupted.
 .PRECIOUS: $(HTML) $(call page,$(NAMES))
-.PHONY: book test deep exact pages fuzz package verify lab record readme pictures bench wheel clean FORCE
+.PHONY: book test types deep exact pages fuzz package verify lab record readme pictures bench wheel clean FORCE
 
 book: .venv/ready
 	@$(MAKE) --no-print-directory --keep-going --jobs=$(JOBS) $(HTML)
@@ -98,6 +99,9 @@ $(HTML): $(CHAPTERS)/claims-table.md $(shell find book -type f -not -path '$(CHA
 
 test: .venv/ready
 	$(BIN)/python -m pytest --numprocesses $(WORKERS) --dist loadfile --no-loadscope-reorder $(ARGS)
+
+types: .venv/ready
+	$(BIN)/mypy --warn-unused-ignores
 
 deep exact pages fuzz: .venv/ready
 	$(if $(filter deep,$@),$(BIN)/python -m pip install --quiet $(DEEP))

@@ -55,11 +55,6 @@ def kept():
     return {path.name for path in files.cache_folder().glob("compiled/*")}
 
 
-def test_what_one_process_has_compiled_another_takes_from_disk_under_names_of_its_own(run_program):
-    """The second process compiles one kernel and finds the other on disk, with the same number."""
-    assert [run_program(LOADED, *temperatures) for temperatures in ((0.5,), (0.1, 0.5), (0.1, 0.5))] == ["0", "2", "3"]
-
-
 def test_processes_that_start_at_once_do_not_disturb_each_other(run_program, tmp_path, monkeypatch):
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     processes = [subprocess.Popen([sys.executable, "-c", LOADED, "0.5"], stdout=subprocess.PIPE) for _ in range(2)]
@@ -70,17 +65,20 @@ def test_processes_that_start_at_once_do_not_disturb_each_other(run_program, tmp
 DAMAGES = {"bits flipped": lambda content: bytes(each ^ (place % 64 == 0) for place, each in enumerate(content)),
            "truncated": lambda content: content[:-1], "empty": lambda content: b"",
            "zeros": lambda content: bytes(len(content))}
+TEMPERATURES = 0.1, 0.2, 0.5, 1.0  # one for each
 
 
-def test_damaged_files_are_compiled_again_and_replaced(run_program, tmp_path):
-    """One kernel's file for each kind of damage, in one process, and all are whole in the next."""
-    temperatures = 0.1, 0.2, 0.5, 1.0
-    run_program(LOADED, *temperatures)
+def test_what_one_process_has_compiled_another_takes_from_disk_unless_it_is_damaged(run_program, tmp_path):
+    """Under names of its own: the second process compiles three kernels of the same name and finds one on disk.
+
+    One file is then damaged in each way, which the third process compiles again, so that all are whole in the next.
+    """
+    assert [run_program(LOADED, *temperatures) for temperatures in ((0.5,), TEMPERATURES)] == ["0", "2"]
     whole = sorted(each for each in tmp_path.glob("compiled/*") if each.name.startswith("choose"))
     assert len(whole) == len(DAMAGES)
     for path, damage in zip(whole, DAMAGES.values()):
         path.write_bytes(damage(path.read_bytes()))
-    assert [run_program(LOADED, *temperatures) for _ in range(2)] == ["1", "5"]  # the world's alone, then all
+    assert [run_program(LOADED, *TEMPERATURES) for _ in range(2)] == ["1", "5"]  # the world's alone, then all
 
 
 FIELDS = """
@@ -139,18 +137,22 @@ def test_the_users_kernels_and_what_has_them_within_are_not_kept(tmp_path, monke
     assert not {path.partition("-")[0] for path in kept() - before} & {"first", "chosen"}
 
 
-UNLINKED = """
-from neorl import Run, WaterWorld, multimodal
-from neorl.kernels import compiling
-run = Run(multimodal([3, 4], object_state="self"), WaterWorld(), seed=1)
+A_WORLD = """
+world = neorl.WaterWorld()
+state = world.reset(1)
+found = f"{sum(world.step(state, k % 5)[0] for k in range(3_000))} {state.scene.position} {compiling.links()}"
+"""
+A_RUN = """
+run = neorl.Run(neorl.multimodal([3, 4], object_state="self"), neorl.WaterWorld(), seed=1)
 found = f"{run.advance(3_000)} {run.memory.q.sum(dtype=float)} {compiling.links()}"
 """
 
 
-def test_without_linking_a_run_is_the_same_to_the_last_bit(run_program):
-    linked = {}
-    exec(UNLINKED, linked)
-    unlinked = run_program(f"{UNLINKED}print(found)", **{compiling.UNLINKED: "1"})
+@pytest.mark.parametrize("program", [A_WORLD, pytest.param(A_RUN, marks=pytest.mark.exact)], ids=["world", "run"])
+def test_without_linking_a_result_is_the_same_to_the_last_bit(run_program, program):
+    linked, program = {}, f"import neorl\nfrom neorl.kernels import compiling\n{program}"
+    exec(program, linked)
+    unlinked = run_program(f"{program}print(found)", **{compiling.UNLINKED: "1"})
     assert linked["found"].removesuffix("True") == unlinked.removesuffix("False") != unlinked
 
 
