@@ -150,4 +150,5 @@ wheel: .venv/ready
 	touch $@
 
 clean:
-	rm -rf .venv .cache _build build dist book/chapters .pytest_cache .benchmarks .hypothesis *.egg-info
+	rm -rf .venv .cache _build build dist book/chapters .pytest_cache .mypy_cache .ruff_cache .benchmarks .hypothesis \
+	    *.egg-info

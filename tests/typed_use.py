@@ -1,4 +1,4 @@
-"""Typical uses, which mypy checks against the annotations of the package (see `test_package.py`); never run."""
+"""Typical uses, which mypy checks against the annotations of the package (`make types`); never run."""
 
 from typing import assert_type
 
