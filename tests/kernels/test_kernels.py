@@ -12,14 +12,14 @@ import numpy as np
 import pytest
 from numba.core import event
 
-from neorl import Agent, Learning, Node, Policy, Run, WaterWorld, network_d, place_cells
+from neorl import Agent, Learning, Node, Policy, Run, WaterWorld, forager, network_d, place_cells
 from neorl.custom import softmax
 from neorl.worlds import Arena
 from neorl.agents.embodiment import loop_of
 from neorl.browser import probe
 from neorl.core import contacts, displacement, geometry, learning, loop, maps, network, policy, stream
+from neorl.core.layout import Memory, Record
 from neorl.core.modality import HEAD_DIRECTION_CELL, Axis, Modality
-from neorl.kernels import compiling
 from neorl.kernels.execution import execute
 from neorl.kernels.kernel import Kernel, inlined_kernel, kernel
 from neorl.worlds import arena, waterworld
@@ -34,14 +34,16 @@ MADE = {"rollout": rollout_in(TANK.dynamics), "softmax": softmax(0.5)}
 
 @pytest.fixture(scope="module", autouse=True)
 def compiled():
-    """Compile every kernel by short runs, and recompile those loaded from disk, whose code cannot be inspected."""
-    for chosen in (Policy(), Policy(choose=softmax(0.5))):
-        Run(place_cells([3], policy=chosen), TANK).advance(10)
+    """Compile the kernels by short runs, or load them from disk."""
+    for agent in (place_cells([3]), place_cells([3], policy=Policy(choose=softmax(0.5))), network_d([3]), forager([3])):
+        Run(agent, TANK).advance(10)
     for world in (TANK, POOL):
         world.step(world.reset(0), 0)
-    for each in {**KERNELS, **MADE}.values():
-        if each.for_python.stats.cache_hits:
-            each.for_python.recompile()
+
+
+def codes(of):
+    """The LLVM code of a kernel as called from Python, with all that is linked into it: numba keeps it on disk, too."""
+    return [str(made.library._get_module_for_linking()) for made in of.for_python.overloads.values()]
 
 
 def test_the_kernels_are_found():
@@ -56,7 +58,7 @@ def test_every_kernel_has_the_same_options_and_calls_no_library(name):
     assert tested.dispatcher.targetoptions in [each(lambda: None).dispatcher.targetoptions
                                                for each in (kernel, inlined_kernel)]
     assert "fastmath" not in tested.dispatcher.targetoptions
-    for code in (tested.dispatcher.inspect_llvm() | tested.for_python.inspect_llvm()).values():
+    for code in codes(tested):
         calls = [line for line in code.splitlines() if " call " in line and "@" in line]
         called = {line.split("@", 1)[1].split("(")[0] for line in calls}
         # Allowed are other kernels (_ZN…), the wrapper that Python calls, and LLVM's own functions, sqrt among them.
@@ -72,16 +74,22 @@ def test_a_kernel_that_allocates_does_not_compile():
         execute(allocate, 3)
 
 
-def test_the_goal_loop_compiles_to_vector_instructions(monkeypatch):
-    monkeypatch.setattr(compiling, "caches", lambda: False)
-    learns = kernel(learning.learn_all_goals.py_func)
-    for signature in learning.learn_all_goals.dispatcher.signatures:
-        learns.for_python.compile(signature)
-    code = "".join(learns.for_python.inspect_llvm().values())
+@kernel
+def learn_once(agent: Record, memory: Memory) -> None:
+    values = learning.values_of(agent, memory, agent.maps[0])
+    learning.learn_all_goals(values, learning.rule_of(agent.learning), 0, 1, agent.rates)
+
+
+def test_the_goal_loop_compiles_to_vector_instructions():
+    run = Run(place_cells([3]), TANK)
+    execute(learn_once, run._record, run._memory)
+    code = "".join(codes(learn_once))
     assert "x float> " in code and "fmul <" in code
 
 
 def test_a_kernel_within_kernels_is_linked_and_has_no_code_of_its_own():
+    run = Run(place_cells([3]), TANK)
+    execute(learn_once, run._record, run._memory)
     for made in learning.learn_all_goals.dispatcher.overloads.values():
         functions = [each.name for each in made.library.get_defined_functions()]
         assert functions and not any(map(made.library.get_pointer_to_function, functions))
