@@ -3,11 +3,12 @@
 import ast
 import json
 import re
-from contextlib import redirect_stdout
+from contextlib import contextmanager, redirect_stdout
 from functools import cache
 from pathlib import Path
 from symtable import symtable
 from types import SimpleNamespace
+from unittest.mock import patch
 
 from computing.cells import tags, with_values
 from markdown_it import MarkdownIt
@@ -47,6 +48,13 @@ def suggested(page, section):
             re.findall(r"\.ipynb out\.ipynb (.*)", "\n".join(each.content for each in blocks)))
 
 
+@contextmanager
+def few_resamples():
+    """Bootstraps of as many resamples as the verdicts in tests need."""
+    with patch("neorl.statistics.RESAMPLES", 100), patch("companion.thesis.measures.RESAMPLES", 100):
+        yield
+
+
 @cache
 def executed(page, changes=(), until=None, **parameters):
     """The names that a page defines, run at a small size, as attributes, and `parts_drawn`, of figures by cell.
@@ -64,7 +72,7 @@ def executed(page, changes=(), until=None, **parameters):
     small = {name: value for name, value in (SMALL | ALSO_SMALL.get(page, {})).items() if name in named}
     cells[first] = with_values(cells[first], small | parameters)
     names, drawn = {"__name__": f"cells_of_{page}"}, {}
-    with plt.rc_context(), redirect_stdout(None):
+    with few_resamples(), plt.rc_context(), redirect_stdout(None):
         for name, cell in cells.items():
             exec(compile(cell, f"{page}.ipynb, {name}", "exec"), names)
             drawn[name] = parts()

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from page_cells import few_resamples
 
 from neorl import Condition, Result, WaterWorld, place_cells
 from neorl.statistics import difference, estimate
@@ -15,10 +16,9 @@ AT = np.arange(1_000) / 1_000  # shares of a run
 
 
 @pytest.fixture
-def few_resamples(monkeypatch):
-    """Bootstraps of as many resamples as the verdicts on these results need."""
-    for module in ("neorl.statistics", "companion.thesis.measures"):
-        monkeypatch.setattr(f"{module}.RESAMPLES", 100)
+def with_few_resamples():
+    with few_resamples():
+        yield
 
 
 def result_of(curve, runs=20, noise=0.02, world=EIGHT, steps=10_000):
@@ -72,7 +72,7 @@ def test_results_like_the_papers_are_judged_reproduced():
     assert verdicts(*paper_a()) == dict.fromkeys(["A1", "A2", "A3", "A4", "A5", "A11", "A6", "A7", "A8"], "reproduced")
 
 
-@pytest.mark.usefixtures("few_resamples")
+@pytest.mark.usefixtures("with_few_resamples")
 @pytest.mark.parametrize("name, change, expected", [
     ("A1", lambda single, control, *rest: (single, brownian(boards=15), *rest), "partly"),  # one reset per run
     ("A1", lambda single, control, *rest: (single, brownian(0.2), *rest), "partly"),
@@ -111,7 +111,7 @@ def test_results_unlike_the_papers_are_judged_otherwise(name, change, expected):
     assert verdicts(*change(*paper_a()))[name] == expected
 
 
-@pytest.mark.usefixtures("few_resamples")
+@pytest.mark.usefixtures("with_few_resamples")
 @pytest.mark.parametrize("name, change, expected", [
     # A lead that no figure shows: it was enough.
     ("A2", lambda single, *rest: ({**single, 90: result_of(np.full(1_000, 0.005), noise=0.001)}, *rest), "partly"),
@@ -181,7 +181,7 @@ def test_results_like_those_of_papers_b_and_c_are_judged_reproduced():
         ["B1", "B3", "B6", "B2", "B4", "C1", "C2", "C3", "C4"], "reproduced")
 
 
-@pytest.mark.usefixtures("few_resamples")
+@pytest.mark.usefixtures("with_few_resamples")
 @pytest.mark.parametrize("name, change, expected", [
     ("B1", lambda pc, ovc, both: ({**pc, "all": climbing(0.3, 60)}, {**ovc, "all": climbing(0.3, 200)}, both),
      "contradicted"),  # as high at the end, less in total; this was partly
@@ -219,7 +219,7 @@ def test_modalities_that_earn_what_brownian_motion_earns_are_no_test_of_each_oth
     assert judged == dict.fromkeys(["B1", "B6", "B4", "B2"], "not testable") | {"B3": "reproduced"}
 
 
-@pytest.mark.usefixtures("few_resamples")
+@pytest.mark.usefixtures("with_few_resamples")
 @pytest.mark.parametrize("name, agent, early, final, expected", [
     ("C1", 0, 0.05, 0.05, "partly"), ("C1", 0, 0.0, 0.2, "partly"), ("C1", 0, 0.2, 0.2, "contradicted"),
     ("C2", 1, 0.1, 0.055, "undecided"), ("C2", 1, 0.1, 0.02, "contradicted"),
