@@ -16,6 +16,7 @@ class Controls {
   fillMenus() {
     const { presets } = this;
     fillMenu(this.control("preset"), presets, orderedKeys(presets));
+    this.part(".chips").append(...CHIPS.map(chip));
     this.control("learned").append(...LESSONS.map((minutes) => new Option(`${minutes} minutes`, minutes)));
     this.control("modality").append(...Object.keys(this.modalities).map((name) => new Option(name, name)));
     this.control("object_state").append(...Object.entries(STATES).map(([state, label]) => new Option(label, state)));
@@ -27,9 +28,8 @@ class Controls {
     this.write({ speed: this.pace = 0 });
     this.offerOfPage();
     const { parentElement: label } = this.control(name);
-    const help = Object.assign(document.createElement("p"), { className: "help", textContent: HELP[name] });
-    const first = Object.assign(document.createElement("div"), { className: "only" });
-    first.append(label.closest(".setting") ?? label, help);
+    const help = element("p", { className: "help" }, HELP[name]);
+    const first = element("div", { className: "only" }, label.closest(".setting") ?? label, help);
     this.part(".starters").prepend(this.action("red"), this.action("tour"));
     this.part(".more").prepend(...[".bar", ".settings", ".starters", ".tools"].map((each) => this.part(each)));
     this.part(".columns").prepend(first);
@@ -44,7 +44,7 @@ class Controls {
     menu.prepend(...menu.querySelectorAll(`[label="${OF_PAGE}"]`));
     const own = orderedKeys(presets).filter((key) => presets[key].is_condition);
     const numbers = inOrder(own.flatMap((key) => presets[key].resolutions)).filter((n) => n > 1);
-    if (numbers.length) this.part(".chips").innerHTML = numbers.map(chip).join("");
+    if (numbers.length) this.part(".chips").replaceChildren(...numbers.map(chip));
   }
 
   /** What a run is called whose only control stands beside the tank: by its setting. */
@@ -200,7 +200,7 @@ class Controls {
 
   write(values) {
     for (const [name, value] of Object.entries(values)) {
-      if (JSON.stringify(this.model.get(name)) === JSON.stringify(value)) continue;
+      if (isSame(this.model.get(name), value)) continue;
       this.model.set(name, value);
       this.note(name);
     }
@@ -238,7 +238,7 @@ class Controls {
   showLegend() {
     const { before, life: { name, changed } } = this;
     const { label, runs, band } = this.presets[this.condition] ?? {};
-    const swatch = (kind) => Object.assign(document.createElement("span"), { className: `swatch ${kind}` });
+    const swatch = (kind) => element("span", { className: `swatch ${kind}` });
     const own = `${name ? `${name}: ` : ""}this run${changed ? ", changed on the way" : ""}`;
     this.part(".legend").replaceChildren(swatch("own"), own,
       ...(before ? [swatch("before"), `${before.name}: the one before`] : []),
@@ -274,10 +274,10 @@ class Controls {
     const cells = horizon === Infinity ? "∞" : shown(horizon);
     this.showSlider("horizon", Math.log10(horizon), discounts ? cells : "no effect");
     this.showSlider("memory", memory ? Math.log10(memory) : NO_MEMORY, shown(memory));
-    grow(this.part(".gains"), nodes.length, (index) => slide(`gain-${index}`, "", 0, 5, 0.1));
+    grow(this.part(".gains"), nodes.length, (index) => elementOf(slide(`gain-${index}`, "", 0, 5, 0.1)));
     this.part(".gains").hidden = nodes.length === 1; // the choice among actions does not depend on it
     nodes.forEach((node, index) => {
-      this.control(`gain-${index}`).parentElement.firstChild.textContent = `Gain of ${node}`;
+      this.control(`gain-${index}`).parentElement.firstChild.textContent = `Gain of ${titleOf(node)}`;
       this.showSlider(`gain-${index}`, model.get("gains")[index]);
     });
   }
@@ -334,7 +334,7 @@ class Controls {
     const all = [this.before, ...earned.reverse()].filter(Boolean);
     drawCurves(this.curve, colours, span, all, this.presets[condition]?.band);
     drawCurves(this.catches, colours, span, frames.flatMap(({ hits }, tank) => hits.map(({ kind, counts }) =>
-      ({ totals: counts, per: 60, colour: COLOUR_OF[kind] ?? "place", isDashed: tank > 0 }))));
+      ({ totals: counts, per: 60, colour: COLOUR_OF.get(kind) ?? "place", isDashed: tank > 0 }))));
     const inWords = ({ hits }) => hits.map(({ kind, counts }) =>
       `${kind} ${shown((ratesOf(counts, span, 60).rates.at(-1) ?? 0).toFixed(1))}`).join(", ");
     const met = frames.map((each, tank) => `${second ? `${this.names()[tank]} ` : ""}${inWords(each)}`);
@@ -359,8 +359,10 @@ class Controls {
 
   showKey() {
     const { frame } = this.life;
-    const markup = frame ? keyOf(frame).map(entryMarkup).join("") : "";
-    if (markup !== this.keyMarkup) this.part(".key").innerHTML = this.keyMarkup = markup;
+    const entries = frame ? keyOf(frame) : [];
+    if (isSame(entries, this.key)) return;
+    this.key = entries;
+    this.part(".key").replaceChildren(...entries.map(entryOf));
   }
 
   minutesText() {

@@ -259,7 +259,7 @@ function frame(steps = 0) {
     wants: choices.desires.flatMap(({ kind, valence }) => (kind < 0 ? [] : [{ kind: world.kinds[kind], valence }])),
     active: learnsContacts(m) ? [] : rowsOf(memory.tracks, "TRACK", from, to).map(({ cell }) => cell),
     nodes: choices.names.map((name, n) => ({ name, ...desire(n) })),
-    landings: choices.edges.flatMap(({ source, target }, e) => (source === "" ? [] : [{
+    landings: choices.edges.flatMap(({ source, target }, e) => (source === null ? [] : [{
       source, target, recurs: source === target, valence: desires[e].total_valence,
       x: agent.x + desires[e].target_at[0], y: agent.y + desires[e].target_at[1],
     }])),

@@ -5,8 +5,8 @@ class Hands extends Controls {
     const { elements, selected, life: { frame } } = this;
     const creeps = this.hasCreeps() ? frame?.things ?? [] : []; // places cannot be dragged
     const [grips, marks] = [this.part(".grips"), this.part(".marks")];
-    grow(grips, creeps.length, () => "<span class='grip'></span>");
-    grow(marks, elements.length, () => "<button type='button' class='interest'></button>");
+    grow(grips, creeps.length, () => element("span", { className: "grip" }));
+    grow(marks, elements.length, () => element("button", { type: "button", className: "interest" }));
     for (const [parent, things] of [[grips, creeps], [marks, elements]]) things.forEach(({ x, y }, index) =>
       Object.assign(parent.children[index].style, { left: `${100 * shareOf(x)}%`, top: `${100 * shareOf(y)}%` }));
     elements.forEach(({ valence }, index) => {

@@ -1,8 +1,8 @@
 /* What the tank shows, in words: the key beside it, and a description for screen readers. */
 
-const SPELLED_OUT = { PC: "place cells", OVC: "object-vector cells", "OVC × V": "object vector and velocity",
-  joints: "postures of the arm", far: "radar, whole area", near: "radar, near range",
-  place: "place cells" };
+const SPELLED_OUT = new Map(Object.entries({ PC: "place cells", OVC: "object-vector cells",
+  "OVC × V": "object vector and velocity", joints: "postures of the arm", far: "radar, whole area",
+  near: "radar, near range", place: "place cells" })); // nodes, whose names may be any text
 const [LINE, HEAD] = ["M2 8H21", "M16 4L21 8L16 12"];
 const picture = (content) => `<svg viewBox="0 0 24 16" aria-hidden="true">${content}</svg>`;
 const disc = (kind, sign) => picture(`<circle class="${kind} full" cx="12" cy="8" r="7.5"/>
@@ -22,12 +22,15 @@ const PICTURES = {
   landing: picture(`<path class="green full" d="M12 0L20 8L12 16L4 8Z"/><path class="sign" d="M9 8h6M12 5v6"/>`),
 };
 
-/** The entries of the key for a frame: [picture, text]. */
+/** The name of a node, in words if it is blank. */
+const titleOf = (name) => (name.trim() ? name : "unnamed");
+
+/** The entries of the key for a frame: [picture, text], or with a list of texts and of nodes, {name}. */
 function keyOf({ things, nodes, landings, player, active, field, heat, seen, arm, heading, hidden, current }) {
   const kinds = new Set(things.map(({ kind }) => kind));
-  const names = nodes.filter(({ valence }) => valence).map(({ name }) => {
-    const long = SPELLED_OUT[name];
-    return long ? `<b>${name}</b>, ${long}` : `<b>${name}</b>`;
+  const wishing = nodes.filter(({ valence }) => valence).flatMap(({ name }, at) => {
+    const long = SPELLED_OUT.get(name);
+    return [at ? "; " : "", { name }, long ? `, ${long}` : ""];
   });
   const entries = [
     ["agent", arm ? "In joint space: the posture of the arm"
@@ -46,20 +49,23 @@ function keyOf({ things, nodes, landings, player, active, field, heat, seen, arm
     ["heat", "Green ground: the value of the best action, deeper where it is greater", heat],
     ["field", `Grey: what the agent would do at each place${heading ? ", on this heading" : ""}, by all maps together`,
       field && seen.goal === null],
-    ["desire", `Dashed: the desire vectors of nodes: ${names.join("; ")}`, names.length],
+    ["desire", ["Dashed: the desire vectors of nodes: ", ...wishing], wishing.length],
     ["landing", "Where the desire of one node places an element for another", landings.length],
     ["way", seen.ofSelf ? "The chosen cell; in each cell, the way there" : "The chosen cell, and the learned way to "
       + "it from others", seen.goal !== null],
   ];
-  return entries.filter((entry) => entry.length < 3 || entry[2]);
+  return entries.filter((entry) => entry.length < 3 || entry[2]).map((entry) => entry.slice(0, 2));
 }
 
-const entryMarkup = ([kind, text]) => `<li>${PICTURES[kind]}<span>${text}</span></li>`;
+function entryOf([kind, ...texts]) {
+  const parts = texts.flat().map((each) => (typeof each === "string" ? each : element("b", {}, titleOf(each.name))));
+  return element("li", {}, elementOf(PICTURES[kind]), element("span", {}, ...parts));
+}
 
 /** The name of a map, such as "PC N5", with its numbers of intervals along the axes. */
 function inWords(map, shape) {
   const node = map.slice(0, map.lastIndexOf(" N"));
-  return `${SPELLED_OUT[node] ?? node}, ${shape}`;
+  return `${SPELLED_OUT.get(node) ?? titleOf(node)}, ${shape}`;
 }
 
 /** What is drawn of the way to the chosen cell. */

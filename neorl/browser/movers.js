@@ -37,9 +37,9 @@ function drawElements(board, elements) {
 /** Draw a thing with its sign, a vessel on its course, or a place with its extent. */
 function drawThing(board, thing, radius) {
   const { colours, unit } = board;
-  const signs = { green: 1, red: -1, target: 1, obstacle: -1 };
+  const signs = new Map(Object.entries({ green: 1, red: -1, target: 1, obstacle: -1 }));
   if (thing.kind === "vessel") return drawHull(board, thing, [thing.vx, thing.vy], 0.7 * radius, colours.red);
-  if (thing.kind in signs) return drawDisc(board, thing, radius, ...signOf(board, signs[thing.kind]));
+  if (signs.has(thing.kind)) return drawDisc(board, thing, radius, ...signOf(board, signs.get(thing.kind)));
   const addPlace = (path) => path.arc(thing.x * unit, thing.y * unit, radius * unit, 0, FULL_TURN);
   fillPath(board, colours.place, 0.35, addPlace);
   stroke(board, colours.place, 2, 1, addPlace);

@@ -30,6 +30,7 @@ const HELP = { // for a control that stands beside the tank by itself
   valence_red: "What the agent wants. Another valence begins a new run.",
   preset: "Another agent begins a new run, with nothing learned." };
 const NAMES = { recursion: "r =", valence_red: "red" }; // of settings that are numbers
+const CHIPS = [2, 3, 5, 7, 11, 13]; // resolutions to press
 const OF_PAGE = "On this page"; // the group of a page's own agents
 
 const slide = (name, label, least, most, step) => `<label class="slide"><span>${label}</span><input type="range"
@@ -42,13 +43,13 @@ const tick = (name, label, state) => `<label class="tick"><input type="checkbox"
 const toggle = (name, label) => `<label class="tick"><input type="checkbox" role="switch" name="${name}">${label}
   </label>`;
 const press = (action, label) => `<button type="button" data-action="${action}">${label}</button>`;
-const chip = (n) => `<button type="button" data-chip="${n}" aria-label="Resolution ${n}">${n}</button>`;
+const chip = (n) => element("button", { type: "button", dataset: { chip: n }, ariaLabel: `Resolution ${n}` }, n);
 const pad = (key) => `<button type="button" data-key="Arrow${key.slice(0, -2)}" aria-label="${key.slice(0, -2)}">
   ${key.at(-1)}</button>`;
 const graph = (kind, title, label) => `<p class="title of-${kind}">${title}</p><canvas class="${kind}" role="img"
   aria-label="${label}"></canvas>`;
 // The tank comes first, also for the keyboard.
-const pageOf = (id) => `<p role="alert" hidden></p>
+const pageOf = (id) => `<div class="neorl-explorer"><p role="alert" hidden></p>
   <div class="columns"><div class="board"><p class="lived"></p>
     <div class="aims"><p class="wants"></p><p class="counts"></p></div>
     <div class="tanks"><div class="first"><p class="named" hidden></p>
@@ -78,7 +79,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     <div class="settings">${choice("modality", "Modality")}${choice("object_state", "State of object vectors")}
     <div class="setting"><label class="labelled"><span>Resolutions</span><input type="text" name="resolutions"
       autocomplete="off"></label>
-    <div class="chips" role="group" aria-label="Resolutions">${[2, 3, 5, 7, 11, 13].map(chip).join("")}</div></div>
+    <div class="chips" role="group" aria-label="Resolutions"></div></div>
     ${slide("recursion", "Weight of recursion", -3, 1, 0.1)}${slide("valence_red", "Valence of red", -2, 2, 0.1)}
     <div class="open">${number("open-run", "Open run")}<span class="of"></span>${press("open", "Open")}</div></div></div>
   <ul class="key" aria-label="What the tank shows"></ul></div>
@@ -93,7 +94,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     ${number("seed", "Seed")}${number("run", "Run")}</div></details><p class="unseen told" aria-live="polite"></p>
   <section class="tour" aria-label="Guided tour" hidden><p id="${id}-tour" role="status"></p><div class="buttons">
     <button type="button" data-action="next" aria-describedby="${id}-tour">Next</button>${press("end", "Stop")}</div>
-    </section>`;
+    </section></div>`;
 
 const power = (exponent) => Number((10 ** exponent).toPrecision(2)); // as on the logarithmic sliders
 const shown = (value) => String(Number(Number(value).toPrecision(value >= 1000 ? 9 : 3))).replace("-", "−");
@@ -101,6 +102,7 @@ const signed = (value) => (value > 0 ? "+" : "") + shown(value);
 const grouped = (value) => Math.round(value).toLocaleString("en-GB");
 const isWhole = (low, high) => (value) => Number.isInteger(value) && value >= low && value <= high;
 const isList = (value, test) => Array.isArray(value) && value.length > 0 && value.every(test);
+const isSame = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 const inOrder = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);
 const shifted = ({ x, y }, dx, dy, by) => ({ x: clampedToBoard(x + by * dx), y: clampedToBoard(y + by * dy) });
 const indexOf = (element) => [...element.parentElement.children].indexOf(element);
@@ -113,15 +115,12 @@ const newLife = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { ste
 /** Fill a menu with agents, in groups, after an option of its own, if any. */
 function fillMenu(menu, presets, keys, first = null) {
   const groups = Object.groupBy(keys, (key) => presets[key].group);
-  menu.replaceChildren(...(first ? [first] : []), ...Object.entries(groups).map(([label, members]) => {
-    const group = Object.assign(document.createElement("optgroup"), { label });
-    group.append(...members.map((key) => new Option(presets[key].label, key)));
-    return group;
-  }));
+  menu.replaceChildren(...(first ? [first] : []), ...Object.entries(groups).map(([label, members]) =>
+    element("optgroup", { label }, ...members.map((key) => new Option(presets[key].label, key)))));
 }
 
 /** Add or remove children until there are `count`. */
-function grow(parent, count, markupOf) {
+function grow(parent, count, make) {
   while (parent.children.length > count) parent.lastChild.remove();
-  while (parent.children.length < count) parent.insertAdjacentHTML("beforeend", markupOf(parent.children.length));
+  while (parent.children.length < count) parent.append(make(parent.children.length));
 }

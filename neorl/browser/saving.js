@@ -28,7 +28,8 @@ class Saving extends Address {
   /** Save a table with a row for each point of the curves: its second, and what was earned and met up to it. */
   saveRun() {
     const { frame, length: { bin }, world: { fps } } = this.life;
-    const head = ["second", "reward", ...frame.hits.map(({ kind }) => kind)];
+    const quoted = ({ kind }) => (/[",\r\n]/.test(kind) ? `"${kind.replaceAll('"', '""')}"` : kind);
+    const head = ["second", "reward", ...frame.hits.map(quoted)];
     const rows = Array.from({ length: Math.ceil(frame.step / bin) }, (_, at) =>
       [Math.min(frame.step, (at + 1) * bin) / fps, frame.rewards[at], ...frame.hits.map(({ counts }) => counts[at])]);
     this.save(new Blob([[head, ...rows].join("\n"), "\n"], { type: "text/csv" }), "csv");
@@ -36,8 +37,8 @@ class Saving extends Address {
 
   save(blob, ending) {
     const href = URL.createObjectURL(blob);
-    const name = `${slug(this.model.get("preset"))}-run-${this.model.get("run")}.${ending}`;
-    Object.assign(document.createElement("a"), { href, download: name }).click();
+    const name = `${slug(this.model.get("preset")) || "agent"}-run-${this.model.get("run")}.${ending}`;
+    element("a", { href, download: name }).click();
     setTimeout(() => URL.revokeObjectURL(href), 10_000); // the browser reads it later
   }
 

@@ -70,7 +70,7 @@ function addElement({ names, edges, desires, push }, target, source, { x, y, val
   desires.forEach(({ elements }, e) => {
     if (edges[e].source === name && edges[e].of.length === 0) elements.push(desires.length);
   });
-  edges.push({ source: "", target: name, of: [] });
+  edges.push({ source: null, target: name, of: [] });
   desires.push({ source, kind: -1, target, valence, learned: false, sums_valence: false, scale: 1, signed: false,
     place: push[0].map((_, axis) => [x, y][axis] ?? 0), point: [], elements: [] });
 }

@@ -24,7 +24,7 @@ export default () => {
     if (!last) explorer?.stop(), explorer = null;
     else if (!explorer) start(last);
     else if (explorer.root.parentElement !== last) last.replaceChildren(explorer.root);
-    if (explorer) for (const other of places.slice(0, -1)) other.innerHTML = ELSEWHERE;
+    if (explorer) for (const other of places.slice(0, -1)) other.replaceChildren(elementOf(ELSEWHERE));
   }
 
   function start(place) {
@@ -33,9 +33,9 @@ export default () => {
       if (damage) throw new Refusal(damage);
       explorer = new Explorer(model, places);
     } catch (error) {
-      place.innerHTML = `<div class="neorl-explorer" data-state="failed"><p role="alert"></p></div>`;
       const message = error instanceof Refusal ? error.message : "The Explorer cannot start on this page.";
-      place.querySelector("[role=alert]").textContent = message;
+      const alert = element("p", { role: "alert" }, message);
+      place.replaceChildren(element("div", { className: "neorl-explorer", dataset: { state: "failed" } }, alert));
     }
   }
 
@@ -48,7 +48,7 @@ export default () => {
       model = host.model; // which outlives those of the views
     },
     render({ el }) {
-      const place = Object.assign(document.createElement("div"), { className: "neorl-place" });
+      const place = element("div", { className: "neorl-place" });
       place.addEventListener("click", ({ target }) => {
         if (!target.matches(".neorl-elsewhere button")) return;
         leave(place);

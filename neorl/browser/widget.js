@@ -20,7 +20,7 @@ class Explorer extends Saving {
       only: "", before: null, noted: new Set(), undo: [], drawn: 0, told: 0, failed: false });
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     const id = `neorl-tank-${Math.random().toString(36).slice(2)}`; // each widget of a page has a module of its own
-    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer", innerHTML: pageOf(id) });
+    this.root = elementOf(pageOf(id));
     [this.arena, this.second, this.limb, this.curve, this.catches] = this.root.querySelectorAll("canvas");
     this.fillMenus();
     places.at(-1).append(this.root);
@@ -229,8 +229,7 @@ class Explorer extends Saving {
   /** Update the menu of maps, which change with the agent, in some conditions during a run. */
   showMaps({ maps, shapes, seen }) {
     const menu = this.control("map");
-    const isSame = maps.join() === Array.from(menu.options, (option) => option.value).join();
-    if (!isSame) menu.replaceChildren(...maps.map((name, m) => new Option(inWords(name, shapes[m]), name)));
+    if (!isSame(maps, Array.from(menu.options, (option) => option.value))) menu.replaceChildren(...maps.map((name, m) => new Option(inWords(name, shapes[m]), name)));
     if (menu.value !== seen.name) menu.value = seen.name;
   }
 

@@ -3,21 +3,20 @@ picture, everything is learned again, so it follows from the number of changes, 
 
 const ACTIONS = ["north", "south", "east", "west"];
 const ARROWS = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowRight: [1, 0], ArrowLeft: [-1, 0] };
-const MARKUP = `<div class="columns"><div class="board"><p class="lived"></p><canvas tabindex="0" role="application"
+const MARKUP = `<div class="neorl-explorer neorl-changes"><div class="columns"><div class="board"><p class="lived"></p><canvas tabindex="0" role="application"
   aria-label="The map. Arrow keys choose another goal."></canvas></div><div class="side"><div class="buttons">
   ${[["Next change of cell", 1], ["100 more", 100], ["All", Infinity], ["Begin again", -Infinity]].map(([text, more]) =>
     `<button type="button" data-more="${more}">${text}</button>`).join("")}</div><label class="slide"><span>Discount γ
   </span><input type="range" min="0" max="0.99" step="0.01"><output></output></label><table><caption></caption><thead>
   <tr>${["Push", "ψ", "Old value", "Target", "New value"].map((text) => `<th scope="col">${text}</th>`).join("")}</tr>
-  </thead><tbody></tbody></table><p class="legend"></p></div></div>`;
+  </thead><tbody></tbody></table><p class="legend"></p></div></div></div>`;
 
 class Changes {
   constructor(model, place) {
     const { changes, side, discount } = model.get("_run");
     Object.assign(this, { ...model.get("_run"), made: 0, goal: changes[0][1], at: (cell) =>
       [cell % side, Math.floor(cell / side)] }); // a cell's column and row, from 0
-    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer neorl-changes",
-      innerHTML: MARKUP });
+    this.root = elementOf(MARKUP);
     [this.map, this.slider] = this.root.querySelectorAll("canvas, input");
     this.slider.value = discount;
     place.append(this.root);
@@ -99,9 +98,9 @@ class Changes {
       changes of cell`;
     part("output").value = this.discount.toFixed(2);
     part("caption").textContent = made ? `From ${nameOf(left)} to ${nameOf(entered)}` : "Nothing learned yet";
-    part("tbody").innerHTML = (made ? this.rows : []).map(({ action, credit, before, target, after }) =>
-      `<tr><th scope="row">${ACTIONS[action]}</th>${[credit, before, target, after].map((value) =>
-        `<td>${value.toFixed(3)}</td>`).join("")}</tr>`).join("");
+    part("tbody").replaceChildren(...(made ? this.rows : []).map(({ action, credit, before, target, after }) =>
+      element("tr", {}, element("th", { scope: "row" }, ACTIONS[action]),
+        ...[credit, before, target, after].map((value) => element("td", {}, value.toFixed(3))))));
     part(".legend").textContent = `Goal: ${nameOf(goal)}. Its value function is drawn: another is a click away.`;
     Object.assign(root.dataset, { made, goal, sum: q.reduce((sum, value) => sum + value, 0) });
   }

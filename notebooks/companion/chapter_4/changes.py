@@ -29,7 +29,7 @@ def changes_of(run, steps):
 class Changes(AnyWidget):
     """The changes of cell of a run, as `changes_of` has them; the agent learns by shares of a stay, without memory."""
 
-    _esm = text_of("drawing.js", Path(__file__).with_name("changes.js"))
+    _esm = text_of("elements.js", "drawing.js", Path(__file__).with_name("changes.js"))
     _css = text_of("widget.css")
     _run = traitlets.Dict().tag(sync=True)
 

@@ -4,20 +4,19 @@ A whole run is drawn as fast as the page computes it, beside the last one with t
 on in the tank, at `PACE` times real time. Out of view, or paused, nothing is asked of the worker. */
 
 const [PACE, BUDGET, MOST_SECONDS, DAY] = [4, 60, 0.1, 86_400]; // times real time, milliseconds, seconds, seconds
-const MARKUP = `<p role="alert" hidden></p><div class="columns"><div class="board"><p class="lived"></p>
+const MARKUP = `<div class="neorl-explorer neorl-turn"><p role="alert" hidden></p><div class="columns"><div class="board"><p class="lived"></p>
   <canvas role="img" aria-label="The tank with the agent"></canvas><div class="buttons"><button type="button"
   data-action="play"></button><label class="tick"><input type="checkbox" checked>Learning goes on after the
   turn</label></div></div><div class="side"><p class="title">Red creeps caught a minute</p><canvas role="img"
   aria-label="Red creeps that the agent catches a minute, over the run"></canvas><p class="legend"></p>
-  <p class="said" role="status"></p></div></div>`;
+  <p class="said" role="status"></p></div></div></div>`;
 const COLOURS = { on: "agent", off: "red" }; // of the curves, by whether learning goes on
 
 class Turn {
   constructor(model, place) {
     Object.assign(this, { model, runs: model.get("_runs"), setting: "on", life: null, before: null, inSight: false,
       isPlaying: !matchMedia("(prefers-reduced-motion: reduce)").matches });
-    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer neorl-turn",
-      innerHTML: MARKUP });
+    this.root = elementOf(MARKUP);
     [this.tank, this.reds] = this.root.querySelectorAll("canvas");
     place.append(this.root);
     [this.play, this.learns] = this.root.querySelectorAll("button, input");
@@ -84,9 +83,9 @@ class Turn {
     drawArena(this.tank, colours, { ...frame, seen: null, nodes: [], landings: [] }, { trail: true });
     const [span, lines] = [{ ...line.span, mark: { second: turn, text: "red becomes good" } }, [line, before]];
     drawCurves(this.reds, colours, span, lines.filter(Boolean).reverse());
-    part(".legend").innerHTML = lines.filter(Boolean).map(({ colour, setting: learning, isPale }) =>
-      `<span class="swatch" style="border-top: 2px solid var(--${colour})"></span>learning ${learning}`
-      + (isPale ? ", the run before" : " after the turn")).join(" · ");
+    part(".legend").replaceChildren(...lines.filter(Boolean).flatMap(({ colour, setting: learning, isPale }, at) => [
+      at ? " · " : "", element("span", { className: "swatch", style: `border-top: 2px solid var(--${colour})` }),
+      `learning ${learning}${isPale ? ", the run before" : " after the turn"}`]));
     const wanted = frame.wants.some(({ kind, valence }) => kind === "red" && valence > 0) ? "wanted" : "avoided";
     part(".lived").textContent = `${Math.floor(frame.step / fps / 60)} minutes · red is ${wanted}`;
     const mean = (from, to) =>

@@ -5,7 +5,7 @@ from pathlib import Path
 from neorl.browser import wasm
 from neorl.browser.explorer import AnyWidget, Explorer, parameters_in_page, text_of, traitlets, world_in_page
 
-SCRIPTS = ("simulator.js", "drawing.js", "movers.js", "curve.js")
+SCRIPTS = ("elements.js", "simulator.js", "drawing.js", "movers.js", "curve.js")
 
 
 class Turn(AnyWidget):

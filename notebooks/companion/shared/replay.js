@@ -2,9 +2,9 @@
 
 It draws while it plays and is in view, and whenever the page changes its colours or its size. */
 
-const CONTROLS = `<div class="tanks"></div><div class="bar"><div class="buttons">
+const MARKUP = `<div class="neorl-explorer neorl-replay"><div class="tanks"></div><div class="bar"><div class="buttons">
   <button type="button" data-action="play"></button></div>
-  <label class="slide"><span>Time</span><input type="range" name="time" min="0" step="1"><output></output></label></div>`;
+  <label class="slide"><span>Time</span><input type="range" name="time" min="0" step="1"><output></output></label></div></div>`;
 const TANK = `<div class="board"><p class="title"></p><div class="arena"><canvas role="img"></canvas></div>
   <p class="legend"></p></div>`;
 
@@ -23,13 +23,12 @@ class Replay {
     Object.assign(this, { model, recordings: model.get("_recordings"), at: 0, owed: 0, before: null, inSight: false });
     this.seconds = this.recordings[0].seconds;
     this.speed = model.get("speed");
-    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer neorl-replay",
-      innerHTML: CONTROLS });
-    const tanks = this.root.querySelector(".tanks");
+    this.root = elementOf(MARKUP);
     for (const { name } of this.recordings) {
-      tanks.insertAdjacentHTML("beforeend", TANK);
-      tanks.lastElementChild.querySelector(".title").textContent = name;
-      tanks.lastElementChild.querySelector("canvas").setAttribute("aria-label", `The tank: ${name}`);
+      const tank = elementOf(TANK);
+      tank.querySelector(".title").textContent = name;
+      tank.querySelector("canvas").ariaLabel = `The tank: ${name}`;
+      this.root.querySelector(".tanks").append(tank);
     }
     [this.button, this.slider] = this.root.querySelectorAll("button, input");
     this.slider.max = this.seconds.length - 1;

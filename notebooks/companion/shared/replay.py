@@ -69,7 +69,7 @@ class Replay(AnyWidget):
     Raises ValueError for anything else.
     """
 
-    _esm = text_of("drawing.js", "movers.js", Path(__file__).with_name("replay.js"))
+    _esm = text_of("elements.js", "drawing.js", "movers.js", Path(__file__).with_name("replay.js"))
     _css = text_of("widget.css")
     _recordings = traitlets.List().tag(sync=True)
 
