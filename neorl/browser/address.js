@@ -120,8 +120,10 @@ class Address extends Tour {
       || (areElements ? "" : `Its elements must be at most ${MOST_ELEMENTS}, each as x, y and a valence from −2 to 2.`)
       || this.problemBeside(settings.preset, beside) || problemOfStart(presets[settings.preset], start);
     if (problem) {
-      this.refuse(this.control("preset"), `The address does not describe a run of this Explorer. ${problem}`);
-      this.part(".refused").scrollIntoView({ block: "nearest" });
+      const message = this.refusal(`The address does not describe a run of this Explorer. ${problem}`);
+      this.part(".tanks").before(message);
+      this.showTank();
+      message.scrollIntoView({ block: "nearest" });
       return;
     }
     this.left = null;

@@ -177,12 +177,15 @@ class Controls {
 
   /** Restore the old value of a field whose new one is not allowed, with a message below it. */
   refuse(field, allowed) {
-    const message = this.part(".refused");
     field.ariaInvalid = "true";
-    (field.closest(".setting, .open") ?? field.parentElement).after(message);
-    message.textContent = `${allowed} Nothing was changed.`;
+    (field.closest(".setting, .open") ?? field.parentElement).after(this.refusal(allowed));
     if (field.name === "open-run") field.value = 0;
     this.showControls();
+  }
+
+  /** The message of a refusal, to be put where the reader looks. */
+  refusal(reason) {
+    return Object.assign(this.part(".refused"), { textContent: `${reason} Nothing was changed.` });
   }
 
   /** Clear the message of a refusal, once another input has been accepted. */

@@ -143,6 +143,17 @@ def test_a_link_has_what_was_dropped_and_says_what_it_leaves_out(visit):
         page.evaluate("document.querySelector('.refused').textContent = ''")
 
 
+@pytest.mark.parametrize("width", [400, 1200])
+def test_the_reason_for_which_an_address_is_refused_stands_above_the_tank_also_beside_folded_controls(visit, width):
+    page = visit("#explorer_agent-nonsense", {"viewport": {"width": width, "height": 800}}, control="preset")
+    reason = page.locator(".refused")
+    expect(reason).to_contain_text("There is no agent “nonsense”")
+    expect(reason).to_be_in_viewport(ratio=1)
+    box, tank = reason.bounding_box(), page.locator(".arena").bounding_box()
+    assert 0 <= tank["y"] - box["y"] - box["height"] < 50
+    assert not page.locator("details").evaluate("folded => folded.open")
+
+
 def test_the_tank_is_the_first_stop_of_the_keyboard_and_space_plays_and_pauses(visit):
     page = visit(speed=1.0)
     page.locator("body").press("Tab")
