@@ -328,6 +328,12 @@ class Controls {
     this.part(".said").textContent = this.sentences().join(" ") || HINTS.filter((_, hint) => able[hint]).join(" ");
   }
 
+  /** Draw in the colours of paper; a run that has not begun has nothing to print. */
+  print(isOnPaper) {
+    this.root.classList.toggle("on-paper", isOnPaper && Boolean(this.life.frame));
+    this.draw(); // at once, since the page is printed as soon as this returns
+  }
+
   /** Draw and write what the run has earned and met, and that of the second tank. */
   drawRates(colours) {
     const { condition, life: { frame, length, world, second } } = this;

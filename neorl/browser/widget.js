@@ -69,6 +69,7 @@ class Explorer extends Saving {
     on(window, "hashchange", ({ newURL }) => this.hasAddress() && this.visit(new URL(newURL).hash));
     on(document, "click", (event) => this.followLink(event));
     on(document, "visibilitychange", () => this.refresh());
+    for (const event of ["beforeprint", "afterprint"]) on(window, event, () => this.print(event === "beforeprint"));
     this.undo.push(watchLook([...this.root.querySelectorAll("canvas")], () => this.wake()));
     watch(new IntersectionObserver((entries) => this.approach(entries.at(-1)), { rootMargin: "200px" }));
     watch(new IntersectionObserver((entries) => this.sight(entries.at(-1))));

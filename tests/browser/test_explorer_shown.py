@@ -154,6 +154,27 @@ def test_the_reason_for_which_an_address_is_refused_stands_above_the_tank_also_b
     assert not page.locator("details").evaluate("folded => folded.open")
 
 
+def test_on_paper_the_tank_and_the_curves_stand_in_light_colours_without_controls(visit):
+    page = visit(options={"color_scheme": "dark"})
+    press(page, "play")
+    wait(page, "ended")
+    dark, light, ground = (0xe6, 0xed, 0xf3), (0x24, 0x29, 0x2f), (0xff, 0xff, 0xff)
+    tank, curve = page.locator(".arena canvas"), page.locator("canvas.curve")
+    on_screen = [coloured(each, dark=dark, light=light) for each in (tank, curve)]
+    assert all(each["dark"] > 100 > each["light"] for each in on_screen)
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    page.emulate_media(media="print")
+    printed = [coloured(each, dark=dark, light=light) for each in (tank, curve)]
+    assert all(each["light"] > 100 > each["dark"] for each in printed)
+    for canvas in (tank, curve):
+        expect(canvas).to_be_visible()
+    for control in ("button", "input", "summary"):
+        assert not any(each.is_visible() for each in page.locator(f".neorl-explorer {control}").all())
+    page.emulate_media(media="screen")
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert [coloured(each, dark=dark, light=light) for each in (tank, curve)] == on_screen
+
+
 def test_the_tank_is_the_first_stop_of_the_keyboard_and_space_plays_and_pauses(visit):
     page = visit(speed=1.0)
     page.locator("body").press("Tab")

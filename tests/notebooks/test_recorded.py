@@ -44,6 +44,23 @@ def test_a_band_with_one_edge_leaves_room_for_the_farthest_number(line, bounds, 
     assert places(svg, "width") == band and places(svg, "cx") == [pytest.approx(at, abs=0.1)]
 
 
+@pytest.mark.parametrize("dark", ['data-theme="dark"', 'data-jp-theme-light="false"'])
+def test_on_paper_the_figure_is_light_whatever_the_page_is(open_page, tmp_path, dark):
+    (tmp_path / "page.html").write_text(
+        f'<!doctype html><html {dark}><meta charset="utf-8"><link rel="icon" href="data:,">'
+        f'<style>html {{ --jp-content-font-color1: white; --pst-color-text-base: white; }}</style><body {dark}>'
+        f'<main class="bd-content">{recorded.answer("paper_b").data}')
+    page = open_page(tmp_path, "page.html", color_scheme="dark")
+
+    def colours():
+        return [page.locator(part).first.evaluate(f"part => getComputedStyle(part).{name}") for part, name in (
+            (".sentence", "color"), ("g.calibrated", "fill"), ("g.letter", "fill"), (".band", "fillOpacity"))]
+    light = ["rgb(34, 34, 34)", "rgb(31, 111, 180)", "rgb(181, 84, 12)", "0.24"]
+    assert not {*light[:3]} & {*colours()}
+    page.emulate_media(media="print")
+    assert colours() == light
+
+
 def test_a_claim_decided_by_another_number_says_so():
     shown = recorded.figure(RECORD, {"": ["B3", "A7"]})
     (other,) = re.findall(r"<small>decided by another number, (.*?)</small>", shown)
