@@ -2,8 +2,8 @@
 
 - The rules are those of star.py. Each agent has a worker of its own, which advances only on request. The lesson, and
   every request, is short, so that the page stays responsive; out of view, or paused, none is made.
-- `life` holds all that the page knows of the two runs, and is replaced as a whole; answers to requests of an earlier
-  one are dropped. What is shown is measured in the frames of the two runs, weighted by time.
+- `runs` holds all that the page knows of the two runs, and is replaced as a whole; answers to requests of earlier
+  ones are dropped. What is shown is measured in the frames of the two runs, weighted by time.
 - While red is good there is no star, which would keep the agent from red discs. */
 
 const SPEED = 2; // times real time, as the caption of the table says
@@ -18,7 +18,7 @@ const STOPPED = "The agents have stopped. Reload the page to begin again.";
 
 class Star {
   constructor(root, data) {
-    Object.assign(this, { root, data, star: data.star, forgetful: false, redIsGood: false, life: null, engines: [],
+    Object.assign(this, { root, data, star: data.star, forgetful: false, redIsGood: false, runs: null, engines: [],
       isPlaying: !matchMedia("(prefers-reduced-motion: reduce)").matches, inSight: false, drawn: 0, numbered: 0 });
     this.calm = !this.isPlaying;
     [this.tank, this.other, this.curve] = root.querySelectorAll("canvas");
@@ -42,7 +42,7 @@ class Star {
     watchLook([tank, this.other, this.curve], () => this.wake());
     new IntersectionObserver(this.safely((entries) => {
       this.inSight = entries.at(-1).isIntersecting;
-      if (this.inSight && !this.life) return this.live();
+      if (this.inSight && !this.runs) return this.begin();
       return this.wake();
     })).observe(root);
   }
@@ -54,14 +54,14 @@ class Star {
 
   press(action) {
     if (action === "play") this.isPlaying = !this.isPlaying;
-    if (action === "forget") this.forgetful = !this.forgetful, this.live();
-    if (action === "red") this.redIsGood = !this.redIsGood, this.life.curves = [], this.change();
+    if (action === "forget") this.forgetful = !this.forgetful, this.begin();
+    if (action === "red") this.redIsGood = !this.redIsGood, this.runs.curves = [], this.change();
     this.wake();
   }
 
   /** Let both agents want something else, and begin to measure again. */
   change() {
-    Object.assign(this.life, { isChanged: true, past: [] });
+    Object.assign(this.runs, { isChanged: true, past: [] });
     this.root.dataset.seconds = 0;
   }
 
@@ -87,35 +87,35 @@ class Star {
   // The two runs
 
   /** Begin both runs, after the first agent's lesson unless it is to know nothing. */
-  async live() {
+  async begin() {
     const { data: { world, seed, lesson, parameters: learning }, forgetful } = this;
-    const life = this.life = newLife();
+    const runs = this.runs = newRuns();
     if (!this.engines.length) {
       const model = { get: (name) => this.data[name] };
       this.engines = [0, 1].map(() => startEngine(model, (message) => this.fail(message)));
     }
     const steps = DAY * world.fps;
-    const begin = { type: "begin", world, seed, run: 0, steps, bin_steps: steps, map: "", heat: 0, field: 0 };
+    const common = { type: "begin", world, seed, run: 0, steps, bin_steps: steps, map: "", heat: 0, field: 0 };
     this.show("learning", 0);
     const parameters = this.parameters(); // the star may be moved in the meantime, which is a change
-    life.frames[1] = await this.ask({ ...begin, parameters }, 1);
-    if (life !== this.life) return;
+    runs.frames[1] = await this.ask({ ...common, parameters }, 1);
+    if (runs !== this.runs) return;
     if (!forgetful) {
       const bin = lesson / LESSON_BINS;
-      await this.ask({ ...begin, parameters: learning, seed: seed + 1, steps: lesson, bin_steps: bin });
+      await this.ask({ ...common, parameters: learning, seed: seed + 1, steps: lesson, bin_steps: bin });
       for (let frame = {}; !frame.ended;) {
-        frame = life.frames[0] = await this.ask({ type: "advance", steps: lesson, budget: LESSON_BUDGET });
-        if (life !== this.life) return;
+        frame = runs.frames[0] = await this.ask({ type: "advance", steps: lesson, budget: LESSON_BUDGET });
+        if (runs !== this.runs) return;
         this.show("learning", minutesOf(frame.step, world));
         if (!this.calm) this.draw();
       }
-      life.reds = life.frames[0].hits[RED].counts.at(-1) / minutesOf(bin, world);
+      runs.reds = runs.frames[0].hits[RED].counts.at(-1) / minutesOf(bin, world);
     }
     // An agent that forgets has another run, or the two would be the same to the last bit.
     const own = { run: Number(forgetful), keeps: !forgetful, field: FIELD_TILES };
-    const frame = await this.ask({ ...begin, ...own, parameters });
-    if (life !== this.life) return;
-    Object.assign(life, { frames: [frame, life.frames[1]], lives: true });
+    const frame = await this.ask({ ...common, ...own, parameters });
+    if (runs !== this.runs) return;
+    Object.assign(runs, { frames: [frame, runs.frames[1]], haveBegun: true });
     this.show("paused");
     this.wake();
   }
@@ -125,36 +125,36 @@ class Star {
   }
 
   isRunning() {
-    return this.isPlaying && this.inSight && Boolean(this.life?.lives);
+    return this.isPlaying && this.inSight && Boolean(this.runs?.haveBegun);
   }
 
   async advance(steps) {
-    const { life } = this;
-    life.isBusy = true;
-    if (life.isChanged) {
-      life.isChanged = false;
+    const { runs } = this;
+    runs.isBusy = true;
+    if (runs.isChanged) {
+      runs.isChanged = false;
       const change = { type: "change", parameters: this.parameters() };
       const frames = await Promise.all([this.ask(change), this.ask(change, 1)]);
-      if (life !== this.life) return;
-      life.frames = frames;
+      if (runs !== this.runs) return;
+      runs.frames = frames;
     }
     if (steps) {
       const request = { type: "advance", steps, budget: Infinity };
-      life.frames = await Promise.all([this.ask(request), this.ask(request, 1)]);
-      if (life !== this.life) return;
-      this.measure(life);
-      if (life.frames[0].ended) await this.live();
+      runs.frames = await Promise.all([this.ask(request), this.ask(request, 1)]);
+      if (runs !== this.runs) return;
+      this.measure(runs);
+      if (runs.frames[0].ended) await this.begin();
     }
-    life.isBusy = false;
+    runs.isBusy = false;
     this.wake();
   }
 
   /** Keep the distances and the captures of the last minute. */
-  measure(life) {
-    const sample = this.sample(life.frames);
+  measure(runs) {
+    const sample = this.sample(runs.frames);
     const isRecent = ({ at }) => sample.at - at <= PERIOD;
-    life.past = [...life.past, sample].filter(isRecent);
-    life.curves = [...life.curves, sample].filter(isRecent);
+    runs.past = [...runs.past, sample].filter(isRecent);
+    runs.curves = [...runs.curves, sample].filter(isRecent);
   }
 
   sample(frames) {
@@ -171,18 +171,18 @@ class Star {
   }
 
   tick(now) {
-    const { life, data: { world: { fps } } } = this;
+    const { runs, data: { world: { fps } } } = this;
     this.asked = null;
     const elapsed = Math.min((now - (this.before ?? now)) / 1000, MOST_SECONDS);
     this.before = this.isRunning() ? now : null;
-    if (life?.lives) {
+    if (runs?.haveBegun) {
       if (this.isRunning()) {
         this.show("running");
-        life.owed = Math.min(life.owed + SPEED * elapsed * fps, SPEED * MOST_SECONDS * fps);
+        runs.owed = Math.min(runs.owed + SPEED * elapsed * fps, SPEED * MOST_SECONDS * fps);
         this.wake();
       } else this.show("paused");
-      const steps = this.isRunning() ? Math.floor(life.owed) : 0;
-      if (!life.isBusy && (steps || life.isChanged)) life.owed -= steps, this.safely(() => this.advance(steps))();
+      const steps = this.isRunning() ? Math.floor(runs.owed) : 0;
+      if (!runs.isBusy && (steps || runs.isChanged)) runs.owed -= steps, this.safely(() => this.advance(steps))();
     }
     if (!this.calm || !this.isRunning() || now - this.drawn >= CALM) this.draw(now);
   }
@@ -190,13 +190,13 @@ class Star {
   show(state, minutes = 0) {
     const { root, forgetful, isPlaying, redIsGood, data: { lesson, world } } = this;
     const whole = minutesOf(lesson, world);
-    const lived = { learning: `It learns for ${whole} minutes, without a star: ${Math.floor(minutes)} …`,
+    const said = { learning: `It learns for ${whole} minutes, without a star: ${Math.floor(minutes)} …`,
       failed: "" }[state] ?? [forgetful ? "It has forgotten everything" : `It learned for ${whole} minutes`,
       redIsGood ? "The star is gone." : "It learns no more."].join(". ");
-    root.querySelector(".lived").textContent = lived;
+    root.querySelector(".minutes").textContent = said;
     if (root.dataset.state !== state) {
       root.dataset.state = state;
-      root.querySelector("[role=status]").textContent = state === "learning" ? "" : lived;
+      root.querySelector("[role=status]").textContent = state === "learning" ? "" : said;
     }
     this.handle.hidden = redIsGood || !["learning", "running", "paused"].includes(state);
     this.placeStar();
@@ -215,16 +215,16 @@ class Star {
   }
 
   draw(now = performance.now()) {
-    const { root, tank, other, life } = this;
+    const { root, tank, other, runs } = this;
     this.drawn = now;
-    if (!life) return;
+    if (!runs) return;
     const colours = readColours(root);
-    const [mine, theirs] = life.frames;
-    if (mine) drawArena(tank, colours, bare(mine), { trail: life.lives });
-    if (theirs) drawArena(other, { ...colours, agent: colours.place }, bare(theirs), { trail: life.lives });
+    const [mine, theirs] = runs.frames;
+    if (mine) drawArena(tank, colours, bare(mine), { trail: runs.haveBegun });
+    if (theirs) drawArena(other, { ...colours, agent: colours.place }, bare(theirs), { trail: runs.haveBegun });
     if (theirs && !this.redIsGood) this.drawStar(other, colours);
     this.placeStar();
-    if (life.lives && (now - this.numbered >= NUMBERS || !this.isRunning())) this.showNumbers(colours, now);
+    if (runs.haveBegun && (now - this.numbered >= NUMBERS || !this.isRunning())) this.showNumbers(colours, now);
   }
 
   drawStar(canvas, colours) {
@@ -235,7 +235,7 @@ class Star {
 
   /** Write the numbers of the last minute, or of the time since the last change, and draw the curves. */
   showNumbers(colours, now) {
-    const { root, curve, redIsGood, life: { past, curves, frames, reds } } = this;
+    const { root, curve, redIsGood, runs: { past, curves, frames, reds } } = this;
     this.numbered = now;
     const [first, last] = past.length ? [past[0], past.at(-1)] : [this.sample(frames), this.sample(frames)];
     const seconds = last.at - first.at;
@@ -269,14 +269,14 @@ class Star {
 
   fail(message = STOPPED) {
     for (const engine of this.engines) engine.stop();
-    Object.assign(this, { engines: [], life: newLife() });
+    Object.assign(this, { engines: [], runs: newRuns() });
     this.show("failed");
     Object.assign(this.root.querySelector("[role=alert]"), { hidden: false, textContent: message });
   }
 }
 
 /** reds: that the agent caught in a minute at the end of its lesson. */
-const newLife = () => ({ frames: [], lives: false, reds: null, past: [], curves: [], owed: 0, isChanged: true,
+const newRuns = () => ({ frames: [], haveBegun: false, reds: null, past: [], curves: [], owed: 0, isChanged: true,
   isBusy: false });
 
 /** A frame without maps and desires. */

@@ -75,8 +75,18 @@ function addressOf(presets, settings, { seconds, map, goal, beside, elements }) 
 /** Whether the page is JupyterLab, or another application of Jupyter's. */
 const isInApplication = () => document.querySelector("#jupyter-config-data") !== null;
 
-class Address extends Tour {
-  hasAddress() {
+class Address {
+  touched = false; // whether the reader has used a control
+  visits = 0; // how many addresses were followed
+
+  /** parts: {panel, traits, tank, hands, second, starters, places}, and functions {look, refresh, running} of the
+   * Explorer. */
+  constructor(parts) {
+    Object.assign(this, parts);
+  }
+
+  /** Whether the page's address is this Explorer's. */
+  isOwn() {
     return !isInApplication() && this.isFirstIn(document);
   }
 
@@ -87,9 +97,9 @@ class Address extends Tour {
 
   /** Open the run in the address, once the Explorer is part of the page. */
   arrive() {
-    if (this.arrived || !this.root.isConnected) return;
+    if (this.arrived || !this.panel.root.isConnected) return;
     this.arrived = true;
-    if (this.hasAddress()) this.visit(location.hash);
+    if (this.isOwn()) this.visit(location.hash);
   }
 
   /** Follow a link that does not change the address: to the address that the page has already, or within a notebook. */
@@ -106,60 +116,61 @@ class Address extends Tour {
 
   /** Open the run that an address describes, if it is one of an Explorer; then set these traits, if any. */
   visit(hash, values = {}) {
-    const { presets, modalities, model } = this;
-    const said = readAddress(hash, presets, modalities, this.first);
+    const { panel, traits, traits: { presets }, tank, hands, starters } = this;
+    const said = readAddress(hash, presets, traits.modalities, traits.first);
     if (!said) return;
     const { settings, minute, map, goal, beside, elements, start } = said;
-    const starts = { watch: () => this.watch(), red: () => this.revalueRed(), corner: () => this.showCorner(),
-      veteran: () => this.meetVeteran(), game: () => this.joinGame() };
-    const wishes = { get: (name) => (Object.hasOwn(settings, name) ? settings[name] : model.get(name)) };
+    const starts = { watch: () => starters.watch(), red: () => starters.revalueRed(),
+      corner: () => starters.showCorner(), veteran: () => starters.meetVeteran(), game: () => starters.play() };
+    const wish = (name) => (Object.hasOwn(settings, name) ? settings[name] : traits.get(name));
     const isMoment = minute === null || (minute >= 0 && minute < FAR);
     const areElements = elements.length <= MOST_ELEMENTS && elements.every(({ x, y, valence }) =>
       [x, y].every((place) => place >= 0 && place <= 1) && Math.abs(valence) <= 2);
-    const problem = problemOf(presets, modalities, wishes) || (isMoment ? "" : "Its minute must be a number ≥ 0.")
+    const problem = traits.problem(wish) || (isMoment ? "" : "Its minute must be a number ≥ 0.")
       || (areElements ? "" : `Its elements must be at most ${MOST_ELEMENTS}, each as x, y and a valence from −2 to 2.`)
-      || this.problemBeside(settings.preset, beside) || problemOfStart(presets[settings.preset], start);
+      || this.second.problem(settings.preset, beside) || problemOfStart(presets[settings.preset], start);
     if (problem) {
-      const message = this.refusal(`The address does not describe a run of this Explorer. ${problem}`);
-      this.part(".tanks").before(message);
-      this.showTank();
+      const message = panel.refusal(`The address does not describe a run of this Explorer. ${problem}`);
+      panel.part(".tanks").before(message);
+      panel.showTank();
       message.scrollIntoView({ block: "nearest" });
       return;
     }
-    this.left = null;
+    this.visits += 1;
     clearTimeout(this.writing); // the address of the run that is left
-    this.showTank();
+    panel.showTank();
     const { world, steps } = presets[settings.preset];
     const step = Math.min(MOST_LENGTHS * steps, Math.round((minute ?? 0) * 60 * world.fps));
     const act = async () => {
-      if (minute !== null || this.calm) this.write({ playing: false });
+      if (minute !== null || isCalm()) traits.write({ playing: false });
       const cell = isWhole(0, MOST_SEED)(goal) ? goal : null;
-      if (map) await this.look({ map: named(this.life.frame.maps, map), goal: cell });
+      if (map) await this.look({ map: named(tank.run.frame.maps, map), goal: cell });
       if (Object.hasOwn(starts, start)) await starts[start]();
-      this.write(values);
-      if (step) elements.forEach((element) => this.addElement(element));
+      traits.write(values);
+      if (step) elements.forEach((each) => hands.addElement(each));
       this.refresh();
     };
     const due = { step, hurries: true, act, news: "Running up to that moment …" };
-    this.fresh({ ...settings, playing: true }, due, { beside, elements: step ? [] : elements });
+    starters.fresh({ ...settings, playing: true }, due, { beside, elements: step ? [] : elements });
   }
 
   /** The address of the settings and the view, and of the present moment, unless the run was changed on the way by more
    * than what is dropped there. A run in which red became desirable begins again. */
-  addressOfNow(isMoment) {
-    const { elements, life: { frame, changed, world, turn }, presets, model } = this;
-    if (turn) return `${PREFIX}_agent-${slug(model.get("preset"))}_start-red`;
-    const settings = { ...this.settings(), seed: model.get("seed"), run: model.get("run") };
+  now(isMoment) {
+    const { traits, hands: { elements }, second: { beside }, tank: { run: { frame, changed, world, turn } } } = this;
+    if (turn) return `${PREFIX}_agent-${slug(traits.get("preset"))}_start-red`;
+    const settings = { ...traits.settings(), seed: traits.get("seed"), run: traits.get("run") };
     const seconds = isMoment && frame && (!changed || elements.length) ? frame.step / world.fps : 0;
     const { name: map = "", goal = null } = frame?.seen ?? {};
-    return addressOf(presets, settings, { seconds, map, goal, beside: this.beside, elements });
+    return addressOf(traits.presets, settings, { seconds, map, goal, beside, elements });
   }
 
   /** Update the page's address, once the reader has used a control, without a new entry in the history. */
-  writeAddress() {
-    if (!this.touched || this.failed || !this.hasAddress() || !this.life.frame || this.life.due) return;
+  write() {
+    const { frame, due } = this.tank.run;
+    if (!this.touched || this.panel.failed || !this.isOwn() || !frame || due) return;
     clearTimeout(this.writing);
-    const write = () => history.replaceState(history.state, "", this.addressOfNow(!this.running()));
+    const write = () => history.replaceState(history.state, "", this.now(!this.running()));
     this.writing = setTimeout(write, 300);
   }
 }

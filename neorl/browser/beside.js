@@ -7,177 +7,176 @@ veterans of chapter 1; nothing else of that run remains. */
 const LESSONS = [100, 10, 0]; // simulated minutes for which the second agent may have learned
 const VETERAN = { agent: "", learned: LESSONS[0] };
 
-class Beside extends Starters {
-  /** Two minutes of a newborn and a veteran, at a pace at which they can be told apart. */
-  meetVeteran() {
-    const { steps, world: { fps } } = this.presets[this.model.get("preset")];
-    const act = () => {
-      const { beside, life: { frame, second } } = this;
-      if (!beside || !second) return;
-      this.write({ playing: false });
-      const lead = second.frame.reward - frame.reward;
-      const ahead = lead < 0 ? "newborn" : "veteran";
-      this.life.news = `${this.livedText()}: the ${ahead} is ${shown(Math.abs(lead))} ahead.`;
-    };
-    const news = "Same agent, same seed, for two minutes.";
-    this.fresh({ speed: 10, playing: true }, { step: Math.min(steps, 120 * fps), hurries: false, act, news },
-      { beside: VETERAN });
+class Second {
+  beside = null; // who is in the second tank: {agent: a preset, or "" for the same one, learned: minutes}
+  engine = null;
+
+  /** parts: {panel, traits, tank, hands}, and functions {refresh, wake, fail} of the Explorer. */
+  constructor(parts) {
+    Object.assign(this, parts);
   }
 
-  /** Begin a run beside {agent: a preset, or "" for the same one, learned: minutes}, or, given null, end that. */
+  /** Begin a run beside somebody, or, given null, end that. */
   compare(beside) {
     this.beside = beside;
-    if (beside) this.note("run"), this.write({ playing: true }); // both from their first step
-    else this.stopSecond();
+    if (beside) this.traits.note("run"), this.traits.write({ playing: true }); // both from their first step
+    else this.stop();
     this.refresh();
   }
 
-  toggleSecond() {
-    return this.beside ? this.compare(null) : this.meetVeteran();
+  choose() {
+    const [agent, learned] = ["beside", "learned"].map((name) => this.panel.control(name).value);
+    return this.compare({ agent, learned: Number(learned) });
   }
 
-  chooseSecond() {
-    return this.compare({ agent: this.control("beside").value, learned: Number(this.control("learned").value) });
-  }
-
-  stopSecond() {
-    this.secondEngine?.stop();
-    Object.assign(this, { secondEngine: null });
-    this.life.second = null;
+  stop() {
+    this.engine?.stop();
+    this.engine = null;
+    this.tank.run.second = null;
   }
 
   /** The agents whose worlds are like that of a preset, without the preset itself. */
   rivalsOf(preset) {
-    const { presets } = this;
+    const { presets } = this.traits;
     return orderedKeys(presets).filter((key) =>
       key !== preset && presets[key].world.name === presets[preset].world.name);
   }
 
   /** A message on a comparison that cannot be made, or "". */
-  problemBeside(preset, beside) {
+  problem(preset, beside) {
     if (!beside) return "";
     const isKnown = ["", ...this.rivalsOf(preset)].includes(beside.agent) && LESSONS.includes(beside.learned);
     return isKnown ? "" : `There is no agent “${beside.agent}” that has learned for ${beside.learned} minutes in such a world.`;
   }
 
-  secondSettings() {
-    const { presets, beside: { agent } } = this;
-    const settings = this.settings();
+  settings() {
+    const { traits: { presets }, beside: { agent } } = this;
+    const settings = this.traits.settings();
     return agent ? { ...initialSettings(presets, agent), n_creeps: settings.n_creeps } : settings;
   }
 
-  askSecond(message) {
-    return this.ask(message, this.secondEngine);
+  parameters() {
+    return this.traits.parameters(this.hands.elements, this.settings());
   }
 
-  async beginSecond() {
-    const { presets, model, life: { length, changes, world: { fps } } } = this;
+  ask(message) {
+    return this.tank.ask(message, this.engine);
+  }
+
+  async begin() {
+    const { panel, traits, tank: { run: { length, changes, world: { fps } } } } = this;
     if (!this.beside) return;
     const { agent: chosen } = this.beside;
-    if (chosen && !this.rivalsOf(model.get("preset")).includes(chosen)) this.beside = VETERAN;
-    const [{ agent, learned }, settings] = [this.beside, this.secondSettings()];
-    const world = worldOf(presets, settings);
+    if (chosen && !this.rivalsOf(traits.get("preset")).includes(chosen)) this.beside = VETERAN;
+    const { agent, learned } = this.beside;
+    const world = traits.world(this.settings());
     const stepsIn = (seconds) => Math.max(1, Math.round(seconds * world.fps));
-    const request = { type: "begin", parameters: this.parameters(settings), world, run: model.get("run"),
-      changes: agent ? presets[agent].changes : changes, map: this.control("map").value, ...this.layers() };
-    this.secondEngine ??= startEngine(model, (message) => this.fail(message));
+    const request = { type: "begin", parameters: this.parameters(), world, run: traits.get("run"),
+      changes: agent ? traits.presets[agent].changes : changes, map: panel.control("map").value, ...panel.layers() };
+    this.engine ??= startEngine(traits.model, this.fail);
     if (learned && !await this.teach({ ...request, steps: stepsIn(60 * learned) })) return;
-    const frame = await this.askSecond({ ...request, seed: model.get("seed"), keeps: learned > 0,
+    const frame = await this.ask({ ...request, seed: traits.get("seed"), keeps: learned > 0,
       steps: stepsIn(length.steps / fps), bin_steps: stepsIn(length.bin / fps) });
-    if (frame) this.life.second = { world, parameters: request.parameters };
-    this.takeSecond(frame);
+    if (frame) this.tank.run.second = { world, parameters: request.parameters };
+    this.take(frame);
   }
 
   /** Let the second agent learn. Returns whether it did, and was not interrupted by another choice of the reader's. */
   async teach(request) {
-    const seed = (this.model.get("seed") + 1) % (MOST_SEED + 1);
-    let frame = await this.askSecond({ ...request, seed, changes: [], bin_steps: request.steps });
-    const isLeft = () => [...this.noted].some((name) => !["speed", "playing"].includes(name));
+    const { panel, traits, tank } = this;
+    const seed = (traits.get("seed") + 1) % (MOST_SEED + 1);
+    let frame = await this.ask({ ...request, seed, changes: [], bin_steps: request.steps });
+    const isLeft = () => [...traits.noted].some((name) => !["speed", "playing"].includes(name));
     while (frame && !frame.ended && !isLeft()) {
       const minutes = Math.floor(frame.step / request.world.fps / 60);
-      this.part(".lived").textContent = `The second agent has learned for ${minutes} minutes …`;
-      frame = await this.askSecond({ type: "advance", steps: STEPS_WITHOUT_END, budget: FREE_BUDGET });
+      panel.part(".minutes").textContent = `The second agent has learned for ${minutes} minutes …`;
+      frame = await this.ask({ type: "advance", steps: STEPS_WITHOUT_END, budget: FREE_BUDGET });
     }
     if (frame && !frame.ended) {
-      if (!NEW_RUN.some((name) => this.noted.has(name))) this.due = this.life.due;
-      this.note("run");
+      if (!NEW_RUN.some((name) => traits.noted.has(name))) tank.due = tank.run.due;
+      traits.note("run");
     }
     return Boolean(frame?.ended);
   }
 
   /** Bring the second tank to a moment of the first. */
   async keepStep({ step }) {
-    const { second, world: { fps } } = this.life;
+    const { second, world: { fps } } = this.tank.run;
     if (!second) return;
     const steps = Math.round((step / fps) * second.world.fps) - second.frame.step;
-    if (steps > 0) this.takeSecond(await this.askSecond({ type: "advance", steps, budget: Infinity }));
+    if (steps > 0) this.take(await this.ask({ type: "advance", steps, budget: Infinity }));
   }
 
-  async changeSecond() {
-    const { second } = this.life;
+  async change() {
+    const { second } = this.tank.run;
     if (!second) return;
-    const parameters = this.parameters(this.secondSettings());
+    const parameters = this.parameters();
     if (JSON.stringify(parameters) === JSON.stringify(second.parameters)) return;
     Object.assign(second, { parameters });
-    this.takeSecond(await this.askSecond({ type: "change", parameters }));
+    this.take(await this.ask({ type: "change", parameters }));
   }
 
   /** Show the same map and layers as in the first tank, and the way to the same cell. */
-  async lookSecond() {
-    const { second, frame: { seen: { name, goal } } } = this.life;
-    if (second) this.takeSecond(await this.askSecond({ type: "look", map: name, goal, ...this.layers() }));
+  async look() {
+    const { second, frame: { seen: { name, goal } } } = this.tank.run;
+    if (second) this.take(await this.ask({ type: "look", map: name, goal, ...this.panel.layers() }));
+  }
+
+  /** Go on for as long again. */
+  async extend() {
+    if (this.tank.run.second) this.take(await this.ask({ type: "extend" }));
   }
 
   /** Take a frame of the second run, or null, since that has ended. */
-  takeSecond(frame) {
-    const { second } = this.life;
+  take(frame) {
+    const { second } = this.tank.run;
     if (!frame || !second) return;
     Object.assign(second, { frame });
     const { step: secondStep, reward: secondScore, seen: { goal } } = frame;
-    Object.assign(this.root.dataset, { secondStep, secondScore, secondGoal: goal ?? "" });
+    Object.assign(this.panel.root.dataset, { secondStep, secondScore, secondGoal: goal ?? "" });
     this.wake();
   }
 
   /** What the two agents are called: short, since on a phone the tanks are narrow. */
   names() {
-    const { presets, model, beside: { agent, learned } } = this;
-    const { label } = presets[model.get("preset")] ?? {};
+    const { traits: { presets, preset }, beside: { agent, learned } } = this;
+    const { label } = preset ?? {};
     if (!agent) return learned ? ["Newborn", "Veteran"] : [label, label];
     return [label, learned ? `${presets[agent].label}, a veteran` : presets[agent].label];
   }
 
   /** The scores of both, or "". */
   scores() {
-    const { beside, life: { frame, second } } = this;
+    const { beside, tank: { run: { frame, second } } } = this;
     if (!beside || !second) return "";
     const [first, other] = this.names();
     return `${first}: ${shown(frame.reward)} · ${other}: ${shown(second.frame.reward)}`;
   }
 
-  showSecond() {
-    const { beside, model, presets, root } = this;
-    const preset = model.get("preset");
+  show() {
+    const { beside, panel, panel: { root }, traits } = this;
+    const preset = traits.get("preset");
     for (const each of root.querySelectorAll(".second, .versus, .named")) each.hidden = !beside;
-    this.action("compare").textContent = beside ? "End the comparison" : "Newborn beside veteran";
-    this.action("compare").ariaPressed = Boolean(beside);
+    panel.action("compare").textContent = beside ? "End the comparison" : "Newborn beside veteran";
+    panel.action("compare").ariaPressed = Boolean(beside);
     if (!beside) delete root.dataset.beside;
-    if (!beside || !Object.hasOwn(presets, preset)) return;
+    if (!beside || !traits.preset) return;
     if (root.dataset.of !== preset) {
-      fillMenu(this.control("beside"), presets, this.rivalsOf(preset), new Option("the same agent", ""));
+      fillMenu(panel.control("beside"), traits.presets, this.rivalsOf(preset), new Option("the same agent", ""));
       root.dataset.of = preset;
     }
-    Object.assign(this.control("beside"), { value: beside.agent });
-    Object.assign(this.control("learned"), { value: beside.learned });
+    Object.assign(panel.control("beside"), { value: beside.agent });
+    Object.assign(panel.control("learned"), { value: beside.learned });
     root.dataset.beside = beside.agent;
   }
 
-  drawSecond(colours) {
-    const { beside, elements, life: { frame, second } } = this;
+  draw(colours) {
+    const { beside, panel, hands: { elements }, tank: { run: { frame, second } } } = this;
     if (!beside || !frame || !second) return;
-    const [names, trail] = [this.names(), this.control("trail").checked];
-    if (second.frame.arm) drawLimb(this.second, colours, second.frame);
-    else drawArena(this.second, colours, second.frame, { trail, elements });
-    this.root.querySelectorAll(".named").forEach((title, index) => {
+    const [names, trail] = [this.names(), panel.control("trail").checked];
+    if (second.frame.arm) drawLimb(panel.other, colours, second.frame);
+    else drawArena(panel.other, colours, second.frame, { trail, elements });
+    panel.root.querySelectorAll(".named").forEach((title, index) => {
       title.textContent = `${names[index]}: ${shown([frame, second.frame][index].reward)}`;
     });
   }

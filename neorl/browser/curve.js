@@ -3,7 +3,7 @@
 const COLOUR_OF = new Map(Object.entries({ green: "green", target: "green", red: "red", obstacle: "red",
   vessel: "red" })); // of what is met, whose kinds may be any text
 
-/** Draw rates over the run. span: {seconds, binSeconds, lived (seconds), mark ({second, text}, a line, or none)}; lines:
+/** Draw rates over the run. span: {seconds, binSeconds, elapsed (seconds), mark ({second, text}, a line, or none)}; lines:
  * {colour, totals (of bins), per (so many seconds, by default 1), span (of its own), isDashed, isPale}; band: of the
  * reward of other runs, or none. */
 function drawCurves(canvas, colours, span, lines, band = null) {
@@ -49,11 +49,11 @@ function drawCurves(canvas, colours, span, lines, band = null) {
 
 /** The rate, per so many seconds, in each bin that has begun. The last, unfinished one is averaged over the full length
  * of a bin, and so reaches back into the bin before. */
-function ratesOf(totals, { seconds, binSeconds, lived }, per = 1) {
-  const bins = lived < 1 ? 0 : Math.ceil(Math.min(lived, seconds) / binSeconds - 1e-9);
-  const edges = Array.from({ length: bins + 1 }, (_, bin) => Math.min(bin * binSeconds, lived, seconds));
+function ratesOf(totals, { seconds, binSeconds, elapsed }, per = 1) {
+  const bins = elapsed < 1 ? 0 : Math.ceil(Math.min(elapsed, seconds) / binSeconds - 1e-9);
+  const edges = Array.from({ length: bins + 1 }, (_, bin) => Math.min(bin * binSeconds, elapsed, seconds));
   const rates = Array.from({ length: bins }, (_, bin) => {
-    const [length, isOpen] = [edges[bin + 1] - edges[bin], bin === bins - 1 && lived < seconds];
+    const [length, isOpen] = [edges[bin + 1] - edges[bin], bin === bins - 1 && elapsed < seconds];
     if (!bin || !isOpen) return (per * totals[bin]) / length;
     return (per * (totals[bin] + (1 - length / binSeconds) * totals[bin - 1])) / binSeconds;
   });

@@ -7,10 +7,12 @@ its traits, which are the controls.
 - `settings.js` turns a preset and the traits into parameters, and `engine.js` runs them in a worker, which
   `simulator.js` starts, in the memory of `machine.js`; `changing.js` changes their agent. Nothing else affects a run:
   run k of a seed is the same as in `neorl.Run`. `views.js` defines what a frame shows of each world.
-- `elements.js` makes elements of a page; `drawing.js`, `movers.js` and `curve.js` draw; `page.js`, `legend.js`,
-  `controls.js`, `hands.js` and `widget.js` are the interface; `starters.js` has things to try, `beside.js` the second
-  tank, `tour.js` the guided tour, `address.js` keeps the state in the page's address, `saving.js` saves what is shown,
-  and `shared.js` has one Explorer for all views of a widget.
+- `elements.js` makes elements of a page, `page.js` has the Explorer's, and `legend.js` its key; `drawing.js`,
+  `movers.js` and `curve.js` draw.
+- The Explorer is of parts: `panel.js` (its page), `traits.js`, `tank.js` (the run), `hands.js` (what the reader does in
+  the tank), `beside.js` (the second tank), `controls.js`, `showing.js` (what is drawn and said), `starters.js` (things
+  to try), `address.js` (its state in the page's address), `tour.js` and `saving.js`. `widget.js` gives them to each
+  other, and `shared.js` has one Explorer for all views of a widget.
 """
 
 import math
@@ -73,8 +75,8 @@ LITTLE_HAPPENS = 120_000  # first steps of networks of desires, which the page r
 AVOIDED = ("red", "obstacle", "vessel")  # the kinds whose valence has a control
 CURVE_BINS = 50
 SCRIPTS = ("elements.js", "settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js",
-           "controls.js", "hands.js", "starters.js", "beside.js", "tour.js", "address.js", "saving.js", "widget.js",
-           "shared.js")
+           "panel.js", "traits.js", "tank.js", "hands.js", "beside.js", "controls.js", "showing.js", "starters.js",
+           "address.js", "tour.js", "saving.js", "widget.js", "shared.js")
 CONTROLS = ("preset", "resolutions", "modality", "object_state", "recursion", "valence_red")
 
 
@@ -347,8 +349,8 @@ def _without_ranges(modality):
 
 def parameters_in_page(agent, world):
     """The chosen parameters, ready for JSON, and the names that the page shows."""
-    edges = [{"source": each.source if agent.comes_from_node(each) else None, "target": each.target, "of": list(each.of)}
-             for each in agent.desires]
+    edges = [{"source": each.source if agent.comes_from_node(each) else None, "target": each.target,
+              "of": list(each.of)} for each in agent.desires]
     return _as_json(choices_in(agent, world)) | {"names": [node.name for node in agent.nodes], "edges": edges}
 
 

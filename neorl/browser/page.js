@@ -50,7 +50,7 @@ const graph = (kind, title, label) => `<p class="title of-${kind}">${title}</p><
   aria-label="${label}"></canvas>`;
 // The tank comes first, also for the keyboard.
 const pageOf = (id) => `<div class="neorl-explorer"><p role="alert" hidden></p>
-  <div class="columns"><div class="board"><p class="lived"></p>
+  <div class="columns"><div class="board"><p class="minutes"></p>
     <div class="aims"><p class="wants"></p><p class="counts"></p></div>
     <div class="tanks"><div class="first"><p class="named" hidden></p>
       <div class="space"><p class="title" hidden>Joint space: first joint across, second down</p>
@@ -105,12 +105,8 @@ const isList = (value, test) => Array.isArray(value) && value.length > 0 && valu
 const isSame = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 const inOrder = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);
 const shifted = ({ x, y }, dx, dy, by) => ({ x: clampedToBoard(x + by * dx), y: clampedToBoard(y + by * dy) });
+const isCalm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 const indexOf = (element) => [...element.parentElement.children].indexOf(element);
-
-/** Everything the page holds of one run; every run has its own, and they share nothing. */
-const newLife = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { steps: 1, bin: 1 }, changed: false,
-  advancing: false, owed: 0, counted: 0, rate: 0, cursor: null, game: null, held: null, slid: false, dragged: null,
-  tapped: null, pointer: null, second: null, changes: [], due: null, news: "", turn: null, ...given });
 
 /** Fill a menu with agents, in groups, after an option of its own, if any. */
 function fillMenu(menu, presets, keys, first = null) {

@@ -23,7 +23,7 @@ export default () => {
     const last = places.at(-1);
     if (!last) explorer?.stop(), explorer = null;
     else if (!explorer) start(last);
-    else if (explorer.root.parentElement !== last) last.replaceChildren(explorer.root);
+    else if (explorer.panel.root.parentElement !== last) last.replaceChildren(explorer.panel.root);
     if (explorer) for (const other of places.slice(0, -1)) other.replaceChildren(elementOf(ELSEWHERE));
   }
 
@@ -54,7 +54,7 @@ export default () => {
         leave(place);
         places.push(place);
         settle();
-        explorer?.arena.focus();
+        explorer?.panel.arena.focus();
       });
       el.append(place);
       places.push(place);

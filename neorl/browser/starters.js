@@ -24,29 +24,97 @@ function problemOfStart(preset, start) {
   return Object.hasOwn(OFFERED, start) && !offersOf(preset)[start] ? OFFERED[start] : "";
 }
 
-class Starters extends Hands {
+/** The creeps of a kind that were caught in a run. */
+function caughtIn({ frame }, kind) {
+  return frame.hits.find((each) => each.kind === kind).counts.reduce((sum, count) => sum + count, 0);
+}
+
+/** The red creeps caught in a minute before the turn of a run, in the first one after it, and in the last one. */
+function turnText(run) {
+  const { turn, frame } = run;
+  if (!turn || turn.caught.length < 2) return "";
+  const { from, at, minute, caught: [start, middle, end], recent } = turn;
+  const now = { step: frame.step, count: caughtIn(run, "red") };
+  if (now.step !== recent.at(-1)?.step) recent.push(now);
+  while (recent[1]?.step <= now.step - minute) recent.shift();
+  const rate = ({ step, count }) => ((now.count - count) / (now.step - step) * minute).toFixed(0);
+  const before = shown(((middle - start) / (at - from) * minute).toFixed(1));
+  const first = end === undefined ? "…" : end - middle;
+  return `Red a minute: ${before}, then ${first}, now ${now.step - recent[0].step < minute ? "…" : rate(recent[0])}`;
+}
+
+/** What becomes of red creeps while they are desirable. */
+function turnSentences({ turn }, traits) {
+  if (!(turn?.caught.length > 1) || traits.get("valence_red") <= 0) return [];
+  if (!canStopLearning(traits.preset)) return [WANTED];
+  return [WANTED, traits.get("learning_rate") ? LEARNS : STAYS];
+}
+
+class Starters {
+  /** parts: {panel, traits, tank, hands, second, controls, showing}, and functions {look, refresh, abandon} of the
+   * Explorer. */
+  constructor(parts) {
+    Object.assign(this, parts);
+    this.pace = Math.max(0, this.traits.get("speed")); // of runs that begin, unless only whole ones are drawn
+  }
+
   /** A new run with the settings of the preset and nothing of what was tried before: with an action that is due later,
    * another agent beside it, and elements, if any. */
   fresh(values = {}, due = null, { beside = null, elements = [] } = {}) {
-    const key = this.model.get("preset");
-    this.dropElements();
-    Object.assign(this, { due, beside, elements });
-    if (!beside) this.stopSecond();
-    for (const name of ["field", "heat", "trail"]) this.control(name).checked = this.control(name).defaultChecked;
-    const settings = { ...initialSettings(this.presets, key), seed: this.presets[key].seed, run: 0, speed: this.pace };
-    this.write({ ...settings, ...values });
-    for (const name of ["run", "elements"]) this.note(name);
+    const { panel, traits, tank, hands, second } = this;
+    const key = traits.get("preset");
+    hands.dropElements();
+    Object.assign(tank, { due });
+    Object.assign(hands, { elements });
+    Object.assign(second, { beside });
+    if (!beside) second.stop();
+    for (const name of ["field", "heat", "trail"]) panel.control(name).checked = panel.control(name).defaultChecked;
+    const speed = panel.only ? 0 : this.pace;
+    traits.write({ ...initialSettings(traits.presets, key), seed: traits.preset.seed, run: 0, speed, ...values });
+    for (const name of ["run", "elements"]) traits.note(name);
+  }
+
+  /** Begin a run of an agent, also of the present one, since its run may have failed. */
+  choose(preset) {
+    const { traits, tank } = this;
+    tank.due = this.beginningOf(preset);
+    traits.write(initialSettings(traits.presets, preset));
+    this.controls.show(); // at once, so that no slider of the previous agent is left
+    traits.note("preset");
+  }
+
+  /** Restart with the preset's own settings: the present ones may be the cause of a failure. */
+  reset() {
+    const { traits } = this;
+    if (!this.tank.run.frame) this.abandon();
+    const preset = [traits.get("preset"), ...orderedKeys(traits.presets)].find((key) => traits.presetOf(key));
+    traits.write({ preset });
+    this.fresh();
+  }
+
+  /** The next run of these settings, with the same elements. */
+  next() {
+    this.traits.write({ run: (this.traits.get("run") + 1) % (MOST_SEED + 1) });
+  }
+
+  /** A run of the condition that is watched, by its number. */
+  open() {
+    const field = this.panel.control("open-run");
+    if (!this.controls.accepts(field)) return;
+    if (!this.tank.run.frame) this.abandon();
+    this.traits.write({ preset: this.traits.condition });
+    this.fresh({ run: field.valueAsNumber, speed: 0, playing: true });
   }
 
   /** What is due at the beginning of a run of an agent to which little happens at first, or null. */
   beginningOf(preset) {
-    if (this.only) return null; // all of the run is at full speed
-    const { begins, world: { fps } } = this.presets[preset] ?? { world: {} };
+    if (this.panel.only) return null; // all of the run is at full speed
+    const { begins, world: { fps } } = this.traits.presetOf(preset) ?? { world: {} };
     const minutes = Math.round(begins / fps / 60);
     const [before, after] = ["begin at full speed, since networks learn slowly", "were at full speed"].map((each) =>
       `The first ${minutes} minutes ${each}.`);
     const act = () => {
-      this.life.news = after;
+      this.tank.run.news = after;
       this.refresh();
     };
     return begins ? { step: begins, hurries: true, act, news: before } : null;
@@ -58,90 +126,83 @@ class Starters extends Hands {
 
   /** Let the agent learn, make red creeps desirable, and stop its learning, if it can stop. Red creeps are counted. */
   revalueRed() {
-    const preset = this.presets[this.model.get("preset")];
+    const { tank, traits, traits: { preset } } = this;
     const minute = 60 * preset.world.fps;
     const at = Math.min(Math.floor(preset.steps / 2), TURN * minute);
     const from = Math.max(0, at - MINUTES_BEFORE * minute);
     const news = `First it learns for ${shown(at / minute)} minutes, and keeps away from red creeps.`;
     const begin = () => {
-      Object.assign(this.life, { turn: { from, at, minute, caught: [this.caught("red")], recent: [] },
+      const turning = { from, at, minute, caught: [caughtIn(tank.run, "red")], recent: [] };
+      Object.assign(tank.run, { turn: turning,
         due: { step: at, hurries: true, act: turn, news } });
     };
     const turn = () => {
-      this.life.turn.caught.push(this.caught("red"));
-      this.life.due = { step: at + minute, hurries: false, act: () => this.life.turn.caught.push(this.caught("red")) };
-      this.write({ valence_red: 1, speed: WATCHED, ...canStopLearning(preset) ? { learning_rate: 0 } : {} });
+      const count = () => tank.run.turn.caught.push(caughtIn(tank.run, "red"));
+      count();
+      tank.run.due = { step: at + minute, hurries: false, act: count };
+      traits.write({ valence_red: 1, speed: WATCHED, ...canStopLearning(preset) ? { learning_rate: 0 } : {} });
     };
     this.fresh({ speed: WATCHED, playing: true }, { step: from, hurries: true, act: begin, news });
   }
 
-  /** The creeps of a kind that were caught in the run. */
-  caught(kind) {
-    return this.life.frame.hits.find((each) => each.kind === kind).counts.reduce((sum, count) => sum + count, 0);
-  }
-
-  /** The red creeps caught in a minute before the turn, in the first one after it, and in the last that was drawn. */
-  turnText() {
-    const { turn, frame } = this.life;
-    if (!turn || turn.caught.length < 2) return "";
-    const { from, at, minute, caught: [start, middle, end], recent } = turn;
-    const now = { step: frame.step, count: this.caught("red") };
-    if (now.step !== recent.at(-1)?.step) recent.push(now);
-    while (recent[1]?.step <= now.step - minute) recent.shift();
-    const rate = ({ step, count }) => ((now.count - count) / (now.step - step) * minute).toFixed(0);
-    const before = shown(((middle - start) / (at - from) * minute).toFixed(1));
-    const first = end === undefined ? "…" : end - middle;
-    return `Red a minute: ${before}, then ${first}, now ${now.step - recent[0].step < minute ? "…" : rate(recent[0])}`;
-  }
-
-  /** What becomes of red creeps while they are desirable. */
-  turnSentences() {
-    const { model, presets, life: { turn } } = this;
-    if (!(turn?.caught.length > 1) || model.get("valence_red") <= 0) return [];
-    if (!canStopLearning(presets[model.get("preset")])) return [WANTED];
-    return [WANTED, model.get("learning_rate") ? LEARNS : STAYS];
-  }
-
   /** Once enough has been learned, show the way to a corner, in a map of places or else in the first map. */
   async showCorner() {
-    const { life, life: { frame } } = this;
+    const { traits, tank: { run } } = this;
     const act = async () => {
-      life.due = null; // an action of another starter
-      this.write({ playing: false });
+      run.due = null; // an action of another starter
+      traits.write({ playing: false });
       await this.look({ map: this.mapOfPlaces(), goal: null });
       await this.look({ at: CORNER });
-      if (this.life.frame.seen.goal === null) this.life.news = "This map does not reach as far as the corner.";
+      if (this.tank.run.frame.seen.goal === null) this.tank.run.news = "This map does not reach as far as the corner.";
       this.refresh();
     };
-    if (frame.step >= Math.min(LEARNED, life.length.steps)) return act();
-    life.due = { step: Math.min(LEARNED, life.length.steps), hurries: true, act, news: "Learning for a moment …" };
-    return this.write({ playing: true });
+    const step = Math.min(LEARNED, run.length.steps);
+    if (run.frame.step >= step) return act();
+    run.due = { step, hurries: true, act, news: "Learning for a moment …" };
+    return traits.write({ playing: true });
   }
 
   mapOfPlaces() {
-    const { names, nodes } = this.parameters();
-    const { position } = this.model.get("_layout").plane.enumerations.Vector;
+    const { traits } = this;
+    const { names, nodes } = traits.parameters();
+    const { position } = traits.layout.enumerations.Vector;
     const name = names[Math.max(0, nodes.findIndex(({ follows }) => follows === position))];
-    const resolutions = this.model.get("resolutions");
+    const resolutions = traits.get("resolutions");
     const near = resolutions.toSorted((a, b) => Math.abs(a - FINE_ENOUGH) - Math.abs(b - FINE_ENOUGH))[0];
     return `${name} N${near}`;
   }
 
-  /** Perform the action that is due, once the run has reached its step. */
-  async meet() {
-    const { life, life: { frame, due } } = this;
-    if (!due || frame.step < due.step) return;
-    life.due = null;
-    await due.act();
+  /** Two minutes of a newborn and a veteran, at a pace at which they can be told apart. */
+  meetVeteran() {
+    const { traits: { preset: { steps, world: { fps } } } } = this;
+    const act = () => {
+      const { second: { beside }, tank: { run, run: { frame, second } } } = this;
+      if (!beside || !second) return;
+      this.traits.write({ playing: false });
+      const lead = second.frame.reward - frame.reward;
+      const ahead = lead < 0 ? "newborn" : "veteran";
+      run.news = `${this.showing.progress()}: the ${ahead} is ${shown(Math.abs(lead))} ahead.`;
+    };
+    const news = "Same agent, same seed, for two minutes.";
+    this.fresh({ speed: 10, playing: true }, { step: Math.min(steps, 120 * fps), hurries: false, act, news },
+      { beside: VETERAN });
   }
 
-  offerStarters() {
-    const { life: { frame, game }, model, presets } = this;
-    const preset = presets[model.get("preset")];
+  compare() {
+    return this.second.beside ? this.second.compare(null) : this.meetVeteran();
+  }
+
+  play() {
+    this.second.compare(null); // there is one game at a time
+    return this.hands.joinGame();
+  }
+
+  offer() {
+    const { panel, traits: { preset }, tank: { run: { frame, game } } } = this;
     const offers = preset ? offersOf(preset) : {};
     const ready = { watch: true, red: true, corner: frame, game: frame && !frame.ended };
-    for (const [name, isReady] of Object.entries(ready)) this.action(name).disabled = !isReady || !offers[name];
-    this.action("game").textContent = game ? "Leave the game" : "Play against it";
-    this.action("game").ariaPressed = Boolean(game);
+    for (const [name, isReady] of Object.entries(ready)) panel.action(name).disabled = !isReady || !offers[name];
+    panel.action("game").textContent = game ? "Leave the game" : "Play against it";
+    panel.action("game").ariaPressed = Boolean(game);
   }
 }

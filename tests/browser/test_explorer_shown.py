@@ -158,7 +158,7 @@ def test_on_paper_the_tank_and_the_curves_stand_in_light_colours_without_control
     page = visit(options={"color_scheme": "dark"})
     press(page, "play")
     wait(page, "ended")
-    dark, light, ground = (0xe6, 0xed, 0xf3), (0x24, 0x29, 0x2f), (0xff, 0xff, 0xff)
+    dark, light = (0xe6, 0xed, 0xf3), (0x24, 0x29, 0x2f)
     tank, curve = page.locator(".arena canvas"), page.locator("canvas.curve")
     on_screen = [coloured(each, dark=dark, light=light) for each in (tank, curve)]
     assert all(each["dark"] > 100 > each["light"] for each in on_screen)

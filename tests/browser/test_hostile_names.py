@@ -129,7 +129,7 @@ READS = re.compile(r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|crea
                    r"|DOMParser|srcdoc|\beval\(|new Function|(?<!function )\belementOf\((.*)$", re.MULTILINE)
 CONSTANTS = {
     "neorl/browser/elements.js": ["template.innerHTML = markup;"],
-    "neorl/browser/widget.js": ["this.root = elementOf(pageOf(id));"],  # id: a random number
+    "neorl/browser/panel.js": ["this.root = elementOf(pageOf("],  # of a random number
     "neorl/browser/shared.js": ["other.replaceChildren(elementOf(ELSEWHERE))"],
     "neorl/browser/legend.js": ["elementOf(PICTURES[kind])"],
     "neorl/browser/controls.js": ['elementOf(slide(`gain-${index}`, "", 0, 5, 0.1))'],

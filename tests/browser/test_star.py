@@ -229,7 +229,7 @@ def test_the_star_moves_by_keyboard_and_by_a_click_and_says_where_it_is(page):
 def test_without_a_star_red_discs_are_counted_and_the_switch_is_undone(page):
     red, handle = page.locator("[data-action=red]"), page.locator("button.star")
     red.click()
-    page.wait_for_selector(".lived:text-is('It learned for 100 minutes. The star is gone.')")
+    page.wait_for_selector(".minutes:text-is('It learned for 100 minutes. The star is gone.')")
     expect(handle).to_be_hidden()
     expect(page.locator("thead")).to_contain_text("Red a minute before")
     wait_for(page, 30)
@@ -238,17 +238,17 @@ def test_without_a_star_red_discs_are_counted_and_the_switch_is_undone(page):
     assert caught[0] > 40 and caught[0] > 2 * caught[1]
     page.locator(".tank canvas").click()
     red.click()
-    page.wait_for_selector(".lived:text-is('It learned for 100 minutes. It learns no more.')")
+    page.wait_for_selector(".minutes:text-is('It learned for 100 minutes. It learns no more.')")
     expect(handle).to_be_visible()
     wait_for(page, 16)
     assert float(shown(page, 0)[0]) < 0.4  # it is a distance again
 
 
 def test_the_agent_forgets_and_learns_again_while_the_star_waits(page):
-    lived, forget = page.locator(".lived"), page.locator("[data-action=forget]")
+    said, forget = page.locator(".minutes"), page.locator("[data-action=forget]")
     forget.click()
-    page.wait_for_selector(".lived:text-is('It has forgotten everything. It learns no more.')")
+    page.wait_for_selector(".minutes:text-is('It has forgotten everything. It learns no more.')")
     forget.click()
     page.wait_for_selector("[data-state=learning]")
-    assert re.fullmatch(r"It learns for 100 minutes, without a star: \d+ …", lived.inner_text())
+    assert re.fullmatch(r"It learns for 100 minutes, without a star: \d+ …", said.inner_text())
     page.wait_for_selector("[data-state=running]")

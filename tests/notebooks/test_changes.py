@@ -53,7 +53,7 @@ def test_the_page_learns_from_one_change_from_a_hundred_and_from_all_with_anothe
         credit = count / steps
         expect(page.locator("tbody tr").nth(row)).to_have_text(f"{push}{credit:.3f}0.0001.000{0.1 * credit:.3f}")
     page.get_by_text("100 more").click()
-    expect(page.locator(".lived")).to_have_text(f"101 of {len(more) + 1} changes of cell")
+    expect(page.locator(".minutes")).to_have_text(f"101 of {len(more) + 1} changes of cell")
     page.get_by_text("All").click()
     assert sums(page) == pytest.approx(learned(0.8).sum(), rel=1e-4)
     page.locator("input").fill("0.5")

@@ -43,7 +43,7 @@ def test_the_page_catches_what_python_catches_with_learning_on_and_off(visit):
     turn, legend = page.locator(".neorl-turn"), page.locator(".legend")
     wait_for_run(page, "on")
     expect(turn).to_have_attribute("data-state", "whole")
-    expect(page.locator(".lived")).to_have_text("8 minutes · red is wanted")
+    expect(page.locator(".minutes")).to_have_text("8 minutes · red is wanted")
     reds = caught("on")
     expect(page.locator(".said")).to_have_text(
         f"Red creeps a minute: {reds[2:4].mean():.1f} before the turn, {reds[4]:.1f} in the minute after it, "
@@ -61,9 +61,9 @@ def test_with_reduced_motion_the_agent_waits_for_play(visit):
     page.get_by_text("Play").click()
     expect(turn).to_have_attribute("data-state", "whole")
     page.get_by_text("Pause").click()
-    before = page.locator(".lived").inner_text()
+    before = page.locator(".minutes").inner_text()
     page.wait_for_timeout(300)
-    assert page.locator(".lived").inner_text() == before
+    assert page.locator(".minutes").inner_text() == before
 
 
 def test_a_page_without_webassembly_says_so(visit):

@@ -3,7 +3,8 @@ picture, everything is learned again, so it follows from the number of changes, 
 
 const ACTIONS = ["north", "south", "east", "west"];
 const ARROWS = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowRight: [1, 0], ArrowLeft: [-1, 0] };
-const MARKUP = `<div class="neorl-explorer neorl-changes"><div class="columns"><div class="board"><p class="lived"></p><canvas tabindex="0" role="application"
+const MARKUP = `<div class="neorl-explorer neorl-changes"><div class="columns"><div class="board">
+  <p class="minutes"></p><canvas tabindex="0" role="application"
   aria-label="The map. Arrow keys choose another goal."></canvas></div><div class="side"><div class="buttons">
   ${[["Next change of cell", 1], ["100 more", 100], ["All", Infinity], ["Begin again", -Infinity]].map(([text, more]) =>
     `<button type="button" data-more="${more}">${text}</button>`).join("")}</div><label class="slide"><span>Discount γ
@@ -94,7 +95,7 @@ class Changes {
     const [left, entered] = changes[made - 1] ?? [];
     for (const cell of made ? [left, entered] : []) stroke(board, colours.agent, 2.4, 1, square(cell, 0.015));
     const nameOf = (cell) => this.at(cell).map((each, along) => `${["column", "row"][along]} ${each + 1}`).join(", ");
-    part(".lived").textContent = `${[made, changes.length].map((each) => each.toLocaleString("en-GB")).join(" of ")}
+    part(".minutes").textContent = `${[made, changes.length].map((each) => each.toLocaleString("en-GB")).join(" of ")}
       changes of cell`;
     part("output").value = this.discount.toFixed(2);
     part("caption").textContent = made ? `From ${nameOf(left)} to ${nameOf(entered)}` : "Nothing learned yet";

@@ -4,9 +4,9 @@ A whole run is drawn as fast as the page computes it, beside the last one with t
 on in the tank, at `PACE` times real time. Out of view, or paused, nothing is asked of the worker. */
 
 const [PACE, BUDGET, MOST_SECONDS, DAY] = [4, 60, 0.1, 86_400]; // times real time, milliseconds, seconds, seconds
-const MARKUP = `<div class="neorl-explorer neorl-turn"><p role="alert" hidden></p><div class="columns"><div class="board"><p class="lived"></p>
-  <canvas role="img" aria-label="The tank with the agent"></canvas><div class="buttons"><button type="button"
-  data-action="play"></button><label class="tick"><input type="checkbox" checked>Learning goes on after the
+const MARKUP = `<div class="neorl-explorer neorl-turn"><p role="alert" hidden></p><div class="columns">
+  <div class="board"><p class="minutes"></p><canvas role="img" aria-label="The tank with the agent"></canvas>
+  <div class="buttons"><button type="button" data-action="play"></button><label class="tick"><input type="checkbox" checked>Learning goes on after the
   turn</label></div></div><div class="side"><p class="title">Red creeps caught a minute</p><canvas role="img"
   aria-label="Red creeps that the agent catches a minute, over the run"></canvas><p class="legend"></p>
   <p class="said" role="status"></p></div></div></div>`;
@@ -14,15 +14,15 @@ const COLOURS = { on: "agent", off: "red" }; // of the curves, by whether learni
 
 class Turn {
   constructor(model, place) {
-    Object.assign(this, { model, runs: model.get("_runs"), setting: "on", life: null, before: null, inSight: false,
+    Object.assign(this, { model, runs: model.get("_runs"), setting: "on", run: null, before: null, inSight: false,
       isPlaying: !matchMedia("(prefers-reduced-motion: reduce)").matches });
     this.root = elementOf(MARKUP);
     [this.tank, this.reds] = this.root.querySelectorAll("canvas");
     place.append(this.root);
     [this.play, this.learns] = this.root.querySelectorAll("button, input");
     this.play.addEventListener("click", () => this.wake({ isPlaying: !this.isPlaying }));
-    this.learns.addEventListener("change", () => this.wake({ setting: this.learns.checked ? "on" : "off", life: null,
-      isPlaying: true, before: this.life?.isWhole ? { ...this.lineOf(this.life), isPale: true } : this.before }));
+    this.learns.addEventListener("change", () => this.wake({ setting: this.learns.checked ? "on" : "off", run: null,
+      isPlaying: true, before: this.run?.isWhole ? { ...this.lineOf(this.run), isPale: true } : this.before }));
     const sight = new IntersectionObserver((entries) => this.wake({ inSight: entries.at(-1).isIntersecting }));
     sight.observe(this.root);
     const unwatch = watchLook([this.tank, this.reds], () => this.wake());
@@ -35,12 +35,12 @@ class Turn {
   /** Begin a run, whose agent changes at the turn, or advance it. */
   async ask(request) {
     this.engine ??= startEngine(this.model, (message) => this.fail(message));
-    const { life, runs, setting } = this;
+    const { run, runs, setting } = this;
     const given = request.type === "begin" ? runs[setting] : {};
-    life.isBusy = true;
+    run.isBusy = true;
     const frame = await this.engine.ask({ ...given, ...request });
-    if (!frame || life !== this.life) return;
-    Object.assign(life, { frame, isBusy: false, isWhole: frame.step >= life.steps });
+    if (!frame || run !== this.run) return;
+    Object.assign(run, { frame, isBusy: false, isWhole: frame.step >= run.steps });
     this.wake();
   }
 
@@ -56,9 +56,9 @@ class Turn {
     const elapsed = Math.min((now - (this.last ?? now)) / 1000, MOST_SECONDS);
     this.last = isRunning ? now : null;
     this.draw();
-    if (!isRunning || this.life?.isBusy) return;
+    if (!isRunning || this.run?.isBusy) return;
     const { steps, world: { fps } } = this.runs[this.setting];
-    const { frame, isWhole } = this.life ??= { steps, fps, frame: null, isWhole: false };
+    const { frame, isWhole } = this.run ??= { steps, fps, frame: null, isWhole: false };
     const begin = { type: "begin", run: 0, steps: steps + DAY * fps, bin_steps: 60 * fps, map: "", field: 0, heat: 0 };
     if (!frame) await this.ask(begin);
     else if (!isWhole) await this.ask({ type: "advance", steps: steps - frame.step, budget: BUDGET });
@@ -68,17 +68,17 @@ class Turn {
   /** The red creeps that a run has caught, minute by minute, and how much of it there is to draw. */
   lineOf({ frame, steps, fps }) {
     const { counts } = frame.hits.find(({ kind }) => kind === "red");
-    const span = { seconds: steps / fps, binSeconds: 60, lived: Math.min(frame.step, steps) / fps };
+    const span = { seconds: steps / fps, binSeconds: 60, elapsed: Math.min(frame.step, steps) / fps };
     return { totals: counts, colour: COLOURS[this.setting], per: 60, span, setting: this.setting };
   }
 
   draw() {
-    const { root, life, before, isPlaying } = this;
+    const { root, run, before, isPlaying } = this;
     const part = (name) => root.querySelector(name);
     this.play.textContent = isPlaying ? "Pause" : "Play";
-    root.dataset.state = life?.isWhole ? "whole" : life?.frame ? "running" : "waiting";
-    if (!life?.frame) return;
-    const [colours, line, { frame, fps, steps, isWhole }] = [readColours(root), this.lineOf(life), life];
+    root.dataset.state = run?.isWhole ? "whole" : run?.frame ? "running" : "waiting";
+    if (!run?.frame) return;
+    const [colours, line, { frame, fps, steps, isWhole }] = [readColours(root), this.lineOf(run), run];
     const [turn, end] = [this.runs[this.setting].changes[0].step, steps].map((step) => step / fps);
     drawArena(this.tank, colours, { ...frame, seen: null, nodes: [], landings: [] }, { trail: true });
     const [span, lines] = [{ ...line.span, mark: { second: turn, text: "red becomes good" } }, [line, before]];
@@ -87,7 +87,7 @@ class Turn {
       at ? " · " : "", element("span", { className: "swatch", style: `border-top: 2px solid var(--${colour})` }),
       `learning ${learning}${isPale ? ", the run before" : " after the turn"}`]));
     const wanted = frame.wants.some(({ kind, valence }) => kind === "red" && valence > 0) ? "wanted" : "avoided";
-    part(".lived").textContent = `${Math.floor(frame.step / fps / 60)} minutes · red is ${wanted}`;
+    part(".minutes").textContent = `${Math.floor(frame.step / fps / 60)} minutes · red is ${wanted}`;
     const mean = (from, to) =>
       (line.totals.slice(from, to).reduce((sum, each) => sum + each, 0) / (to - from)).toFixed(1);
     const [quarter, half, late, last] = [0.5 * turn, turn, (turn + end) / 2, end].map((at) => Math.floor(at / 60));
@@ -98,7 +98,7 @@ class Turn {
 
   fail(message = "The agent has stopped. Reload the page to begin again.") {
     this.engine?.stop();
-    Object.assign(this, { engine: null, life: null, isPlaying: false });
+    Object.assign(this, { engine: null, run: null, isPlaying: false });
     Object.assign(this.root.querySelector("[role=alert]"), { hidden: false, textContent: message });
   }
 }

@@ -4,7 +4,8 @@ It draws while it plays and is in view, and whenever the page changes its colour
 
 const MARKUP = `<div class="neorl-explorer neorl-replay"><div class="tanks"></div><div class="bar"><div class="buttons">
   <button type="button" data-action="play"></button></div>
-  <label class="slide"><span>Time</span><input type="range" name="time" min="0" step="1"><output></output></label></div></div>`;
+  <label class="slide"><span>Time</span><input type="range" name="time" min="0" step="1"><output></output></label></div>
+  </div>`;
 const TANK = `<div class="board"><p class="title"></p><div class="arena"><canvas role="img"></canvas></div>
   <p class="legend"></p></div>`;
 
