@@ -1,21 +1,19 @@
 // Change the agent of a run on the way, as `neorl.Run.change` does, with all that both agents have in common.
 
-/** Continue as another agent, as `Run.change` does: maps that both have are kept, the last step's desires are not. */
+/** Continue as another agent, with all that `neorl.agents.keeping` says. */
 function become(choices) {
   const old = run;
-  const keys = mapKeys(choices);
+  const [keys, before] = [mapKeys(choices), mapKeys(old.choices)];
+  const [recall, recalled] = [memories(choices), memories(old.choices)];
   const isOrdered = choices.learning.bootstrap === old.choices.learning.bootstrap;
   const laid = laidOut(choices);
+  const desires = desiresOf(old);
   if (isOrdered && same(laid.sizes, old.laid.sizes) && same(laid.agent.n_desires, old.laid.agent.n_desires)
-    && same(keys, mapKeys(old.choices))) {
+    && same(keys, before) && same(recall, recalled)) {
     assign(run.agent, laid.agent);
     for (const [name, values] of Object.entries(laid.memory)) fill(run.memory[name], values);
     Object.assign(run, { choices, laid });
     call("derive", { n_things: run.sizes.things });
-    for (const desire of run.agent.desires) {
-      for (const values of [desire.q, desire.target_at]) values.fill(0);
-      Object.assign(desire, { target_valence: 0, total_valence: 0 });
-    }
   } else {
     run = newRun({ ...old, bin_steps: old.log.bin_steps, parameters: choices });
     for (const name of ["world_state", "second", "log"]) copy(run[name], old[name]);
@@ -23,14 +21,45 @@ function become(choices) {
     Object.assign(run, { step, player, changes, trail });
     call("begin_values");
     call("begin");
-    for (const name of ["stream", "activity"]) run.agent[name].set(old.agent[name]);
-    run.agent.last_event = old.agent.last_event;
-    const oldKeys = mapKeys(old.choices);
-    keys.forEach((key, m) => oldKeys.includes(key) && keepMap(old, oldKeys.indexOf(key), m));
-    const isKept = keys.includes(oldKeys[mapNames(old.choices).indexOf(look.map)]);
+    put(run.agent, stateOf(old.agent, layout.of_an_agent));
+    keys.forEach((key, m) => {
+      const from = before.indexOf(key);
+      if (from >= 0) keepMap(old, from, m, recalled[from] === recall[m]);
+    });
+    const isKept = keys.includes(before[mapNames(old.choices).indexOf(look.map)]);
     lookAt({ goal: isKept ? look.goal : null });
   }
+  for (const [key, { desire, state }] of desiresOf(run)) put(desire, desires.get(key)?.state ?? blank(state));
 }
+
+/** A copy of some fields of a record. */
+const stateOf = (record, names) => Object.fromEntries(names.filter((name) => name in record).map((name) =>
+  [name, ArrayBuffer.isView(record[name]) ? record[name].slice() : record[name]]));
+
+/** The state of a desire before the first choice. */
+const blank = ({ worth, ...state }) => Object.fromEntries(Object.entries(state).map(([name, value]) =>
+  [name, ArrayBuffer.isView(value) ? value.map(() => 0) : 0]));
+
+/** Write fields into a record. */
+function put(record, values) {
+  for (const [name, value] of Object.entries(values)) {
+    if (ArrayBuffer.isView(value)) record[name].set(value);
+    else record[name] = value;
+  }
+}
+
+/** The desires of a run's agent, by all that makes two of them the same: {desire, state}, the state being a copy. */
+function desiresOf({ agent, choices: { desires, edges, names, nodes } }) {
+  const keys = numbered(desires.map((desire, e) => {
+    const { target, elements, ...own } = desire; // which are numbers of nodes and of desires
+    return JSON.stringify([own, edges[e], names[target], nodes[target]]);
+  }));
+  return new Map(keys.map((key, e) => [key, {
+    desire: agent.desires[e], state: stateOf(agent.desires[e], layout.of_a_desire) }]));
+}
+
+/** Texts, each with its number among equal ones. */
+const numbered = (texts) => texts.map((text, i) => `${text} ${texts.slice(0, i).filter((other) => other === text).length}`);
 
 /** Copy the arrays of a named tuple, also of nested ones. */
 function copy(to, from) {
@@ -42,24 +71,28 @@ function copy(to, from) {
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
-function mapKeys({ names, nodes, learning }) {
-  return nodes.flatMap((node, n) => {
-    const { learns_contacts: learnsOf, state, ends, axes, landmarks, resolutions } = node;
-    const memory = isOfSelf(node) ? learning.memory_retained : learning.memory_retained > 0;
-    return resolutions.map((cells) => JSON.stringify([names[n], learnsOf, state, ends, cells, memory, axes, landmarks]));
-  });
+/** What the maps of an agent have in common with those that can take their values. */
+function mapKeys({ names, nodes }) {
+  return numbered(nodes.flatMap(({ learns_contacts: contacts, state, ends, axes, landmarks, resolutions }, n) =>
+    resolutions.map((cells) => JSON.stringify([names[n], contacts, state, ends, cells, axes, landmarks]))));
 }
 
-/** Copy an old run's values of a map, its active cells, and its memory of how they were reached. */
-function keepMap(old, from, to) {
+/** What the maps of an agent remember of how their cells were reached: more than values only if it is the same. */
+function memories({ nodes, learning: { memory_retained: retained } }) {
+  return nodes.flatMap((node) => node.resolutions.map(() =>
+    (node.learns_contacts ? null : isOfSelf(node) ? retained : retained > 0)));
+}
+
+/** Copy an old run's values of a map, and, if it remembers alike, its active cells and how they were reached. */
+function keepMap(old, from, to, isRecalled) {
   const [was, now] = [old.agent.maps, run.agent.maps];
-  for (const [part, names] of Object.entries(layout.of_a_map)) {
+  const moved = now[to].first_value - was[from].first_value;
+  for (const [name, [keeping, part]] of Object.entries(layout.kept)) {
     const [first, end] = [`first_${part}`, `end_${part}`];
-    for (const name of names.filter(() => was[from][end] > was[from][first])) {
-      const width = old.memory[name].length / was.at(-1)[end];
-      const kept = old.memory[name].subarray(was[from][first] * width, was[from][end] * width);
-      run.memory[name].set(kept, now[to][first] * width);
-    }
+    if (name === "q" || (keeping !== "values" && !isRecalled) || was[from][end] <= was[from][first]) continue;
+    const width = old.memory[name].length / was.at(-1)[end];
+    const kept = old.memory[name].slice(was[from][first] * width, was[from][end] * width);
+    run.memory[name].set(keeping === "places" ? kept.map((place) => place + BigInt(moved)) : kept, now[to][first] * width);
   }
   const values = old.memory.q.subarray(was[from].first_value, was[from].end_value);
   run.memory.q.set(reordered(values, old, from), now[to].first_value);

@@ -13,23 +13,19 @@ let run = null;
 // The name of a map, a cell of it, and the tiles along each side of the superposed value as a field and as a heat map.
 let look = { map: "", goal: null, field: 0, heat: 0 };
 
-// The fields of an agent's record that are chosen as they are, besides its tables.
-const CHOSEN = ["size", "own_cell_counts", "shared_cell_counts_once", "notices_resets", "learning", "contacts", "policy"];
-// The sizes of what an agent learns, which follow from its record.
-const OF_VALUES = ["values", "cells", "scratch", "tracks", "traces", "trace_weights", "passed", "left"];
-
 /** A run in a machine of its own, with its agent's record derived and everything else at 0. */
 function newRun({ parameters: choices, world, steps, bin_steps }) {
   const laid = laidOut(choices);
   const [actions, axes] = [choices.push.length, choices.push[0].length];
   const sizes = { ...laid.sizes, actions, axes, things: world.things, ...world.sizes, kinds: world.kinds.length,
-    bins: Math.ceil(steps / bin_steps), recorded: 0, episodes: 0,
-    ...Object.fromEntries(OF_VALUES.map((name) => [name, 0])) };
+    bins: Math.ceil(steps / bin_steps), recorded: 0, episodes: 0 };
+  for (const name of Object.keys(layout.sizes)) sizes[name] = 0; // they follow from the record
   const bytes = 2 ** 20 + 2 * layout.records.Agent.size + bytesOf("Memory", sizes);
   const last = newAgent(new Machine(bytes), sizes, laid).agent.maps.at(-1);
-  Object.assign(sizes, { values: last.end_value, cells: last.end_cell, scratch: actions * last.end_cell,
-    tracks: last.end_track, traces: last.end_trace, trace_weights: 2 * actions * last.end_trace,
-    passed: last.end_passed, left: choices.contacts.trace });
+  const factor = (each) => (typeof each === "number" ? each : last[each] ?? { actions, ...choices.contacts }[each]);
+  for (const [name, product] of Object.entries(layout.sizes)) {
+    sizes[name] = product.map(factor).reduce((one, other) => one * other);
+  }
 
   const machine = new Machine(bytes + bytesOf("Log", sizes) + bytesOf("Memory", sizes)
     + bytesOf("Memory", { ...sizes, values: 0 }) + 3 * bytesOf(layout.state, sizes) + bytesOf(layout.rules, sizes));
@@ -37,7 +33,7 @@ function newRun({ parameters: choices, world, steps, bin_steps }) {
   const worldState = machine.tuple(layout.state, sizes);
   const { position, velocity, ...shared } = worldState.scene;
   const { q, goal_range, ...derived } = memory;
-  const known = Object.fromEntries(["cuts", ...Object.keys(laid.memory), "goals"].map((name) => [name, derived[name]]));
+  const known = Object.fromEntries(["cuts", "goals", ...Object.keys(laid.memory)].map((name) => [name, derived[name]]));
   return {
     machine, sizes, world, steps, choices, laid, agent, memory, world_state: worldState, scene: worldState.scene,
     rules: machine.tuple(layout.rules, sizes, world.rules), step: 0,
@@ -59,31 +55,29 @@ function newAgent(machine, sizes, laid) {
 
 /** What `neorl.core.building` makes of choices: the fields of an agent's record, arrays of its memory, and sizes. */
 function laidOut(choices) {
-  const { nodes, order, frames, push } = choices;
-  const axes = nodes.flatMap((node) => node.axes);
-  const desires = choices.desires.map((desire) =>
-    ({ ...desire, goals: desire.point.length ? nodes[desire.target].resolutions : [] }));
+  const { nodes } = choices;
   const tables = {
-    nodes: withPlaces(nodes, { map: "resolutions", axis: "axes", landmark: "landmarks" }),
+    nodes, axes: nodes.flatMap((node) => node.axes),
     maps: nodes.flatMap(({ resolutions }, node) => resolutions.map((resolution) => ({ resolution, node }))),
-    axes: withPlaces(axes, { boundary: "boundaries" }),
-    desires: withPlaces(desires, { element: "elements", coordinate: "point", goal: "goals" }),
+    desires: choices.desires.map((desire) =>
+      ({ ...desire, goals: desire.point.length ? nodes[desire.target].resolutions : [] })),
   };
-  const chosen = Object.fromEntries(CHOSEN.map((name) => [name, choices[name]]));
   const counts = Object.fromEntries(Object.entries(tables).map(([name, { length }]) => [`n_${name}`, length]));
   if (Math.max(...Object.values(counts)) > layout.rows) {
     throw new Refusal(`An agent in a page can have ${layout.rows} nodes, maps, axes and desires. Choose fewer.`);
   }
-  const [points, elements] = ["point", "elements"].map((name) => desires.flatMap((desire) => desire[name]));
-  const boundary = axes.flatMap(({ boundaries }) => boundaries);
-  const landmarks = nodes.flatMap((node) => node.landmarks);
-  return {
-    agent: { ...counts, ...tables, ...chosen, push, order },
-    memory: { points, elements, boundary, landmark: landmarks.flat(), frames: frames.flat() },
-    sizes: { coordinates: points.length, elements: elements.length, boundaries: boundary.length,
-      landmarks: landmarks.length, frames: frames.length, goals: desires.flatMap(({ goals }) => goals).length,
-      cuts: tables.nodes.reduce((sum, node) => sum + node.resolutions * node.axes, 0) },
-  };
+  const rows = Object.fromEntries(Object.entries(tables).map(([name, each]) =>
+    [name, withPlaces(each, layout.lists[name] ?? {})]));
+  const sizes = { goals: tables.desires.flatMap(({ goals }) => goals).length,
+    cuts: nodes.reduce((sum, { resolutions, axes }) => sum + resolutions.length * axes.length, 0) };
+  const [shapes, memory] = [Object.fromEntries(layout.tuples.Memory), {}];
+  for (const [name, [table, several]] of Object.entries(layout.joined)) {
+    const [, [size]] = shapes[name];
+    const entries = (table === "choices" ? [choices] : tables[table]).flatMap((row) => row[several]);
+    Object.assign(sizes, { [size]: entries.length });
+    Object.assign(memory, { [name]: entries.flat() });
+  }
+  return { agent: { ...counts, ...choices, ...rows }, memory, sizes }; // a table is as long as its count says
 }
 
 /** Rows with the length in place of each list, and where it begins and ends among those of all rows. */

@@ -31,6 +31,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.agents.embodiment import loop_of
+from neorl.agents.keeping import OF_AGENT, OF_DESIRE
 from neorl.agents.papers import brownian
 from neorl.agents.spaces import pilot
 from neorl.browser.seeding import start_stream
@@ -40,10 +41,11 @@ from neorl.common.container import cores, free_memory
 from neorl.common.extras import require
 from neorl.common.warn import warn
 from neorl.core import contacts, derived, displacement, loop
+from neorl.core.building import JOINED, LISTS, SIZES
 from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
 from neorl.core.derived import begin_values, derive
 from neorl.core.functions import AgentFunctions, Loop
-from neorl.core.layout import DERIVED, KEEPING, PART_OF, WORKING, CUT, TRACK, Memory, agent_type
+from neorl.core.layout import CUT, DERIVED, KEEPING, PART_OF, TRACK, WORKING, Memory, agent_type
 from neorl.experiments.condition import PARTS, source_digest
 from neorl.kernels.annotations import Record, fields, is_tuple
 from neorl.kernels.identity import can_cache, digest_of_source
@@ -80,6 +82,8 @@ MODULES = {  # by the name under which a page requests it
     # agents without kernels of the user's own
     "plane": _module(PLANE, brownian(), WaterWorld(), True),
     "helm": _module(Vessel().dynamics, pilot(), Vessel(), False)}  # for the two actions of a rudder
+KEPT = {name: (keeping.name, PART_OF[fields(Memory)[name][1][0]]) for name, keeping in KEEPING.items()
+        if keeping not in (WORKING, DERIVED)}
 ENUMERATIONS = (Action, Cut, Feature, MapState, Source, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
 HOT = "rollout"  # the other exports are called at most once per picture
@@ -165,8 +169,9 @@ def layout(name="plane"):
     [name, dtype, offset, shape]; instead of the dtype there may be the name of a kind. "exports": for each function its
     "arguments", [name, kind], and the dtype of its "result". "state" and "rules": the names of the world's tuples.
     "rows": of the tables of a record.
-    "enumerations": {name: {member: number}}. "of_a_map": the arrays of an agent's memory that have a part for each map,
-    by what the part begins and ends with.
+    "enumerations": {name: {member: number}}. "lists", "joined" and "sizes": how an agent is laid out, see
+    `neorl.core.building`. "kept": the arrays of an agent's memory that go on as it changes, by what they are kept with
+    and what the part of a map begins and ends with; "of_an_agent" and "of_a_desire": the fields of its record that do.
     """
     _, _, record, exports, tuples = MODULES[name]
     return {"state": tuples[1].__name__, "rules": tuples[2].__name__, "rows": ROWS,
@@ -175,9 +180,8 @@ def layout(name="plane"):
             "exports": {each.__name__: {"arguments": _described_all(_passed(each)),
                                         "result": SCALARS.get(fields(each)["return"])} for each in exports},
             "enumerations": {kind.__name__: {each.name: int(each) for each in kind} for kind in ENUMERATIONS},
-            "of_a_map": {part: [name for name, keeping in KEEPING.items() if keeping not in (WORKING, DERIVED)
-                                and name != "q" and PART_OF[fields(Memory)[name][1][0]] == part]
-                         for part in set(PART_OF.values()) - {"value"}}}
+            "lists": LISTS, "joined": JOINED, "sizes": SIZES, "kept": KEPT, "of_an_agent": OF_AGENT,
+            "of_a_desire": OF_DESIRE}
 
 
 def _records(name, dtype):

@@ -1,7 +1,8 @@
 """An agent's record and memory, from its choices, which are those of `neorl.agents.embodiment.choices_in`.
 
 They have a dict for each node, with its axes, and for each desire: rows of the record's tables. Lists of different
-lengths in them become parts of one array, and the rows tell where each begins. ``engine.js`` does the same in a page.
+lengths in them become parts of one array, and the rows tell where each begins. ``engine.js`` does the same in a page,
+by the tables below.
 """
 
 import functools
@@ -18,6 +19,17 @@ from neorl.kernels.execution import in_table, interpret
 from neorl.kernels.kernel import kernel
 
 TABLES = ("nodes", "maps", "axes", "desires")
+# Lists in the rows of a table, by the name of one entry: ``first_…`` is where the row's begins among those of all rows.
+LISTS = {"nodes": {"map": "resolutions", "axis": "axes", "landmark": "landmarks"}, "axes": {"boundary": "boundaries"},
+         "desires": {"element": "elements", "coordinate": "point", "goal": "goals"}}
+# Arrays of `Memory` that are such lists one after the other: of all rows of a table, or of the choices themselves.
+JOINED = {"points": ("desires", "point"), "elements": ("desires", "elements"), "boundary": ("axes", "boundaries"),
+          "landmark": ("nodes", "landmarks"), "frames": ("choices", "frames")}
+# The sizes of what an agent learns and remembers, as products: of numbers of actions, of where the parts of its last
+# map end, and of the trace of contacts.
+SIZES = {"values": ("end_value",), "cells": ("end_cell",), "scratch": ("actions", "end_cell"), "tracks": ("end_track",),
+         "traces": ("end_trace",), "trace_weights": (2, "actions", "end_trace"), "passed": ("end_passed",),
+         "left": ("trace",)}
 WITHOUT_VALUES = tuple(name for name, keeping in KEEPING.items() if keeping is DERIVED)
 
 
@@ -31,30 +43,25 @@ def new_agent(choices, n_things):
 def laid_out(choices):
     """The same, before anything is derived."""
     nodes, push = choices["nodes"], choices["push"]
-    axes = [axis for node in nodes for axis in node["axes"]]
-    landmarks = [place for node in nodes for place in node["landmarks"]]
-    desires = [desire | {"goals": nodes[desire["target"]]["resolutions"] if desire["point"] else ()}
-               for desire in choices["desires"]]
     tables = {
-        "nodes": with_places(nodes, map="resolutions", axis="axes", landmark="landmarks"),
+        "nodes": nodes, "axes": [axis for node in nodes for axis in node["axes"]],
         "maps": [{"resolution": resolution, "node": n} for n, node in enumerate(nodes)
                  for resolution in node["resolutions"]],
-        "axes": with_places(axes, boundary="boundaries"),
-        "desires": with_places(desires, element="elements", coordinate="point", goal="goals")}
+        "desires": [desire | {"goals": nodes[desire["target"]]["resolutions"] if desire["point"] else ()}
+                    for desire in choices["desires"]]}
     agent = np.zeros((), agent_type(*push.shape, rows_for(max(map(len, tables.values())))))
     for name, rows in tables.items():
         agent["n_" + name] = len(rows)
-        for record, row in zip(agent[name], rows):
+        for record, row in zip(agent[name], with_places(rows, LISTS.get(name, {}))):
             fill(record, row)
     agent["order"][: len(nodes)] = choices["order"]
     fill(agent, {name: value for name, value in choices.items() if name not in (*TABLES, "order")})
-    sizes = {"goals": sum(len(desire["goals"]) for desire in desires),
-             "cuts": sum(len(node["resolutions"]) * len(node["axes"]) for node in nodes)}
-    return agent, new_memory(sizes | dict(zip(("actions", "axes"), push.shape)), {
-        "points": joined(float, [desire["point"] for desire in desires]),
-        "elements": joined(np.int64, [desire["elements"] for desire in desires]), "frames": choices["frames"],
-        "boundary": joined(float, [axis["boundaries"] for axis in axes]),
-        "landmark": joined(float, landmarks).reshape(-1, push.shape[1])})
+    sizes = dict(zip(("actions", "axes"), push.shape)) | {
+        "goals": sum(len(desire["goals"]) for desire in tables["desires"]),
+        "cuts": sum(len(node["resolutions"]) * len(node["axes"]) for node in nodes)}
+    lists = {name: [row[several] for row in (tables | {"choices": [choices]})[table]]
+             for name, (table, several) in JOINED.items()}
+    return agent, new_memory(sizes, {name: joined(name, each, sizes) for name, each in lists.items()})
 
 
 def n_values(agent):
@@ -66,9 +73,9 @@ def n_values(agent):
 def sizes_of(agent):
     """The sizes of all that an agent learns and remembers in its `Memory`, by name, from its record."""
     last, (actions, axes) = agent["maps"][agent["n_maps"] - 1], agent["push"].shape
-    return {"values": n_values(agent), "cells": last["end_cell"], "scratch": actions * last["end_cell"],
-            "tracks": last["end_track"], "traces": last["end_trace"], "trace_weights": 2 * actions * last["end_trace"],
-            "passed": last["end_passed"], "left": agent["contacts"]["trace"], "actions": actions, "axes": axes}
+    factors = dict(zip(last.dtype.names, last.item())) | {"trace": int(agent["contacts"]["trace"]), "actions": actions}
+    sizes = {name: math.prod(factors.get(each, each) for each in product) for name, product in SIZES.items()}
+    return sizes | {"values": n_values(agent), "actions": actions, "axes": axes}
 
 
 def n_bytes(agent):
@@ -101,10 +108,10 @@ def fill(record, values):
             record[name] = values[name]
 
 
-def with_places(rows, **names):
+def with_places(rows, names):
     """Rows of a table with the length in place of each list, and where it begins and ends among those of all rows.
 
-    names: of the lists, by that of one entry.
+    names: of the lists, by that of one entry, as in `LISTS`.
     """
     begins = {one: np.cumsum([0, *(len(row[several]) for row in rows)]) for one, several in names.items()}
     return [row | {several: len(row[several]) for several in names.values()}
@@ -112,9 +119,10 @@ def with_places(rows, **names):
             for r, row in enumerate(rows)]
 
 
-def joined(dtype, lists):
-    """Lists one after the other, in an array."""
-    return np.array([value for values in lists for value in values], dtype)
+def joined(name, lists, sizes):
+    """An array of `Memory`: lists one after the other."""
+    dtype, (_, *each) = fields(Memory)[name]
+    return np.array([value for values in lists for value in values], dtype).reshape(-1, *(sizes[size] for size in each))
 
 
 @functools.lru_cache(maxsize=64)

@@ -24,9 +24,9 @@ const ask = (worker, request) => new Promise((resolve, reject) => {
   worker.onerror = ({ message }) => reject(new Error(message));
   worker.postMessage(request);
 });
-async function answers([requests, last]) {
+async function answers([requests, last, layouts]) {
   const worker = new Worker(URL.createObjectURL(new Blob([state._engine])));
-  for (const [name, layout] of Object.entries(state._layout)) {
+  for (const [name, layout] of Object.entries(layouts ?? state._layout)) {
     const wasm = Uint8Array.from(atob(state.wasm[name]), (byte) => byte.charCodeAt(0)).buffer;
     await ask(worker, { type: "load", name, wasm, layout });
   }
@@ -54,7 +54,8 @@ def state():
 def ask(open_shared_page, tmp_path_factory, state):
     """`ask(request, …)` begins a run and returns the engine's answers to this and to each request.
 
-    last: how many answers are wanted, or 0 for all; thousands take long to come back from the page.
+    last: how many answers are wanted, or 0 for all; thousands take long to come back from the page. layouts: of the
+    modules, in place of their own.
     """
     folder = tmp_path_factory.mktemp("engine")
     preset = state["_presets"]["D"]
@@ -65,8 +66,8 @@ def ask(open_shared_page, tmp_path_factory, state):
                                         f'<script>{script}</script>')
     page = open_shared_page(folder, "page.html")
 
-    def ask(*requests, last=0, **changes):
-        return page.evaluate("given => answers(given)", [[begin | changes, *requests], last])
+    def ask(*requests, last=0, layouts=None, **changes):
+        return page.evaluate("given => answers(given)", [[begin | changes, *requests], last, layouts])
     return ask
 
 
@@ -222,6 +223,37 @@ def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
         assert np.reshape(each["seen"]["ways"], (-1, 2)).tolist() == learned(run, m, goal)
         nres = run.state.maps[m]
         assert each["active"] == run.memory.tracks.cell[nres.first_track : nres.end_track].tolist()
+
+
+DRAWN = {"q", "goal_range", "tracks", "cuts", "goals"}  # what of an agent's memory a page draws, or orders anew
+
+
+def renamed(layout):
+    """The layout of a module in which all other arrays of an agent's memory, and their sizes, have other names."""
+    memory = layout["tuples"]["Memory"]
+    names = {name for name, _ in memory} - DRAWN
+    shapes = {name: shape for name, (_, shape) in memory}
+    sizes = {*layout["sizes"], *(shapes[name][0] for name in layout["joined"])}
+    new = {name: f"renamed {name}" for name in names}
+    new_size = {size: f"{size}-renamed" for size in sizes}
+    fields = [[new.get(name, name), [dtype, [new_size.get(each, each) for each in shape]]]
+              for name, (dtype, shape) in memory]
+    return layout | {
+        "tuples": layout["tuples"] | {"Memory": fields},
+        "joined": {new[name]: source for name, source in layout["joined"].items()},
+        "sizes": {new_size[size]: product for size, product in layout["sizes"].items()},
+        "kept": {new.get(name, name): how for name, how in layout["kept"].items()}}
+
+
+def test_a_page_knows_by_the_layout_alone_what_an_agent_s_memory_holds_and_what_it_keeps(ask, state):
+    agent = network_d([4, 5], learning=Learning(memory=30.0))
+    later = network_d([5, 7], learning=Learning(memory=30.0), object_state="per object")
+    requests = (advance(STEPS), {"type": "change", "parameters": parameters_in_page(later, TANK)}, advance(STEPS),
+                {"type": "look", "map": "OVC N5", "goal": 7, "field": 9, "heat": 9})
+    layouts = {name: renamed(layout) for name, layout in json.loads(json.dumps(state["_layout"])).items()}
+    assert layouts["plane"]["kept"]["renamed left"] == ["places", "track"]
+    given = {"parameters": parameters_in_page(agent, TANK), "last": 1}
+    assert ask(*requests, layouts=layouts, **given) == ask(*requests, **given)
 
 
 @pytest.mark.parametrize("object_state", ["object", "self", "per object"])

@@ -18,14 +18,13 @@ from neorl.browser.explorer import OTHER_SPACES
 from neorl.browser.seeding import start_stream
 from neorl.browser.worlds import rules_of
 from neorl.common import files
-from neorl.core.building import WITHOUT_VALUES, laid_out
+from neorl.core.building import SIZES, WITHOUT_VALUES, laid_out
 from neorl.core.layout import Memory
 from neorl.core.stream import new_stream
 from neorl.kernels.annotations import arrays, new_tuple
 from neorl.kernels.execution import execute
 
 STEPS = 50_000
-OF_VALUES = ("values", "cells", "scratch", "tracks", "traces", "trace_weights", "passed", "left")  # sizes
 RUNS = [name for name in golden.RUNS if name != "softmax"]  # a choice of actions that is not compiled for the page
 
 
@@ -79,7 +78,7 @@ def test_a_run_begins_as_in_python_without_any_python(name):
     machine, sizes = Machine(name=module_of(run)), sizes_of(run)
     record, draft = laid_out(choices_in(agent, run.world))
     agent, draft = machine.put(widened(record, module_of(run))), machine.put_tuple(draft)
-    machine.call("derive", sizes | {name: 0 for name in OF_VALUES}, agent=agent, memory=draft, n_things=world.things)
+    machine.call("derive", sizes | {name: 0 for name in SIZES}, agent=agent, memory=draft, n_things=world.things)
     world_state = machine.put_tuple(new_tuple(type(state_of(run)), sizes, {}))
     memory = machine.put_tuple(new_tuple(Memory, sizes, {
         name: getattr(viewed(draft), name) for name in WITHOUT_VALUES}))
