@@ -8,12 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from neorl import Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
+from neorl import Explorer, Learning, Node, NresMap, Run, WaterWorld, forager, network_d, place_cells, simulate
 from neorl.worlds import Arena
 from neorl.browser import wasm
 from neorl.browser.explorer import OTHER_SPACES, parameters_in_page, world_in_page
 from neorl.core.coordinates import sense
 from neorl.core.horde import as_vectors
+from neorl.core.modality import PLACE_CELL
 from neorl.kernels.annotations import mapped
 from neorl.kernels.execution import execute
 from neorl.browser.probe import step_second, survey
@@ -206,6 +207,7 @@ def learned(run, m, goal):
     network_d([5, 7], learning=Learning(memory=3.0)),
     network_d([4, 5], learning=Learning(memory=0.0)),
     network_d([4, 5], learning=Learning(memory=30.0, bootstrap=False)),
+    network_d([4, 5], learning=Learning(memory=30.0)), network_d([4, 5], learning=Learning(memory=30.0), recursion=2.0),
 ])
 def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
     agent, goal = network_d([4, 5], learning=Learning(memory=30.0)), 9
@@ -223,6 +225,20 @@ def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
         assert np.reshape(each["seen"]["ways"], (-1, 2)).tolist() == learned(run, m, goal)
         nres = run.state.maps[m]
         assert each["active"] == run.memory.tracks.cell[nres.first_track : nres.end_track].tolist()
+
+
+HUNTER = forager([5, 9], valence_green=1.0, valence_red=-1.0)
+MORE = Node("PC", PLACE_CELL, [4])
+
+
+@pytest.mark.parametrize("later", [HUNTER, replace(HUNTER, nodes=[MORE, *HUNTER.nodes])], ids=["same", "moved"])
+def test_contacts_on_the_way_of_a_change_are_credited_as_in_python(ask, later):
+    change = {"type": "change", "parameters": parameters_in_page(later, TANK)}
+    *_, frame = ask(advance(STEPS), change, advance(STEPS), parameters=parameters_in_page(HUNTER, TANK))
+    run = Run(HUNTER, TANK, SEED, K)
+    reward = run.advance(STEPS)
+    run.change(later)
+    assert frame["reward"] == reward + run.advance(STEPS) != 0
 
 
 DRAWN = {"q", "goal_range", "tracks", "cuts", "goals"}  # what of an agent's memory a page draws, or orders anew
