@@ -32,9 +32,20 @@ def notebook(page):
     return json.loads((NOTEBOOKS / f"{page}.ipynb").read_text(encoding="utf-8"))
 
 
-def code(page):
-    """The code in the cells of a page, in their order: {cell: source}."""
-    return {each["id"]: "".join(each["source"]) for each in notebook(page)["cells"] if each["cell_type"] == "code"}
+def small(page, **parameters):
+    """A page as committed, but with parameters of a small size and these."""
+    made = notebook(page)
+    (first,) = [each for each in made["cells"] if "parameters" in each["metadata"].get("tags", ())]
+    source = "".join(first["source"])
+    named = set(re.findall(r"^(\w+): ", source, re.MULTILINE))
+    values = {name: value for name, value in (SMALL | ALSO_SMALL.get(page, {})).items() if name in named}
+    first["source"] = with_values(source, values | parameters)
+    return made
+
+
+def code(made):
+    """The code in the cells of a page as made, in their order: {cell: source}."""
+    return {each["id"]: "".join(each["source"]) for each in made["cells"] if each["cell_type"] == "code"}
 
 
 def suggested(page, section):
@@ -62,15 +73,11 @@ def executed(page, changes=(), until=None, **parameters):
     changes: pairs (text, other text) of its code, each of which must be there. until: the last cell to run, of which
     there must be one, or None for the whole page. parameters: its own.
     """
-    cells = code(page)
+    cells = code(small(page, **parameters))
     assert until in (None, *cells), until
     for text, other in changes:
         assert any(text in cell for cell in cells.values()), text
         cells = {name: cell.replace(text, other) for name, cell in cells.items()}
-    (first,) = [each["id"] for each in notebook(page)["cells"] if "parameters" in each["metadata"].get("tags", ())]
-    named = set(re.findall(r"^(\w+): ", cells[first], re.MULTILINE))
-    small = {name: value for name, value in (SMALL | ALSO_SMALL.get(page, {})).items() if name in named}
-    cells[first] = with_values(cells[first], small | parameters)
     names, drawn = {"__name__": f"cells_of_{page}"}, {}
     with few_resamples(), plt.rc_context(), redirect_stdout(None):
         for name, cell in cells.items():

@@ -15,6 +15,7 @@ its traits, which are the controls.
   other, and `shared.js` has one Explorer for all views of a widget.
 """
 
+import contextlib
 import math
 from collections.abc import Mapping
 from dataclasses import replace
@@ -77,6 +78,8 @@ CURVE_BINS = 50
 SCRIPTS = ("elements.js", "settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js",
            "panel.js", "traits.js", "tank.js", "hands.js", "beside.js", "controls.js", "showing.js", "starters.js",
            "address.js", "tour.js", "saving.js", "widget.js", "shared.js")
+OF_PRESET = ("resolutions", "modality", "object_state", "recursion", "valence_red", "gains", "exploration",
+             "learning_rate", "discount", "memory", "n_creeps")  # the traits that a preset determines
 CONTROLS = ("preset", "resolutions", "modality", "object_state", "recursion", "valence_red")
 
 
@@ -122,6 +125,8 @@ class Explorer(AnyWidget):
     _layout = traitlets.Dict().tag(sync=True)
     _presets = traitlets.Dict().tag(sync=True)
     _modalities = traitlets.Dict().tag(sync=True)
+    _agents = traitlets.Dict()  # of the presets, and their worlds
+    _whole = False  # whether a preset is being set together with its settings
 
     preset = traitlets.Unicode().tag(sync=True)
     resolutions = traitlets.List(traitlets.Int(min=1, max=90), minlen=1).tag(sync=True)
@@ -144,6 +149,34 @@ class Explorer(AnyWidget):
     score = traitlets.Float().tag(sync=True)
 
     def __init__(self, conditions=None, preset=None, **traits):
+        super().__init__(_wasm=wasm.modules(), _layout={name: wasm.layout(name) for name in wasm.MODULES},
+                         _modalities=_modalities(), **self._shown(conditions, preset, traits))
+
+    def show(self, conditions=None, preset=None, **traits):
+        """Show other conditions wherever this Explorer stands, such as results that have been computed since.
+
+        Arguments are those of `Explorer`. All traits begin anew, but for control, which stays unless it is given.
+        Raises what `Explorer` raises, and then goes on as before.
+        """
+        with self._choosing(True), self.hold_sync(), self.hold_trait_notifications():
+            for name, value in self._shown(conditions, preset, traits).items():
+                setattr(self, name, value)
+
+    def set_state(self, sync_data):
+        """Set what a page has set, which chooses a preset together with its settings, and sends those that differ."""
+        with self._choosing(not set(OF_PRESET).isdisjoint(sync_data)):
+            super().set_state(sync_data)
+
+    @contextlib.contextmanager
+    def _choosing(self, whole):
+        self._whole = whole
+        try:
+            yield
+        finally:
+            self._whole = False
+
+    def _shown(self, conditions, preset, traits):
+        """All traits that these arguments determine."""
         if isinstance(conditions, str) and preset is None:
             conditions, preset = None, conditions
         conditions = _by_name(conditions)
@@ -157,21 +190,21 @@ class Explorer(AnyWidget):
                   for name, agent in AGENTS.items()} | OTHER_SPACES
         own = {name: (each.agent, each.world) for name, each in conditions.items()}
         start = {name: agents[name] for name in START_HERE}
-        self._lives = start | own | agents | own  # in the menu's order; conditions replace agents of the same name
+        agents = start | own | agents | own  # in the menu's order; conditions replace agents of the same name
         presets = {name: _preset(name, agent, world, conditions.get(name)) | {"place": place}
-                   for place, (name, (agent, world)) in enumerate(self._lives.items())}
+                   for place, (name, (agent, world)) in enumerate(agents.items())}
         preset = next(iter(conditions or presets)) if preset is None else preset
         checks.one_of("preset", preset, tuple(presets))
         for name in traits:
             checks.one_of("trait", name, tuple(each for each in self.traits(sync=True) if not each.startswith("_")))
-        begin = {"preset": preset, "seed": first.seed if first else 0, **_settings(presets[preset]), **traits}
-        super().__init__(_wasm=wasm.modules(), _layout={name: wasm.layout(name) for name in wasm.MODULES},
-                         _presets=presets, _modalities=_modalities(), **begin)
+        defaults = {name: self.traits()[name].default_value for name in ("run", "speed", "playing")}
+        return {"_agents": agents, "_presets": presets, **defaults, "preset": preset,
+                "seed": first.seed if first else 0, **_settings(presets[preset]), **traits}
 
     @property
     def agent(self):
         """The `Agent` that the traits describe, without elements dropped in the page."""
-        preset, world = self._lives[self.preset]
+        preset, world = self._agents[self.preset]
         named = {each.name: each for each in MODALITIES}
         own = self.resolutions == self._presets[self.preset]["resolutions"]
         nodes = [replace(node, resolutions=node.resolutions if own else self.resolutions, gain=gain)
@@ -192,7 +225,7 @@ class Explorer(AnyWidget):
     @property
     def world(self):
         """The agent's world."""
-        _, world = self._lives[self.preset]
+        _, world = self._agents[self.preset]
         return replace(world, n_creeps=self.n_creeps) if isinstance(world, WaterWorld) else world
 
     @traitlets.validate("preset", "modality", "object_state", "recursion", "valence_red", "gains", "memory", "n_creeps",
@@ -203,11 +236,11 @@ class Explorer(AnyWidget):
             if name in ("preset", "control"):
                 return checks.one_of(name, value, ("", *CONTROLS) if name == "control" else tuple(self._presets))
             if name == "modality":
-                own = self._lives[self.preset][0].nodes[0].goals == "contacts"
+                own = self._agents[self.preset][0].nodes[0].goals == "contacts"
                 return checks.one_of(name, value, ("",) if own else ("", *self._modalities))
             if name == "object_state":
                 return checks.one_of(name, value, self._presets[self.preset]["states"])
-            agent, world = self._lives[self.preset]
+            agent, world = self._agents[self.preset]
             if name == "n_creeps" and value is not None and not isinstance(world, WaterWorld):
                 raise checks.error("n_creeps", "None outside WaterWorld", value)
             nodes = len(agent.nodes)
@@ -223,7 +256,7 @@ class Explorer(AnyWidget):
 
     @traitlets.observe("preset")
     def _take_settings(self, change):
-        if change["old"]:
+        if change["old"] and not self._whole:
             with self.hold_sync():
                 for name, value in _settings(self._presets[change["new"]]).items():
                     setattr(self, name, value)
@@ -270,9 +303,8 @@ def _check_condition(name, condition):
 
 
 def _settings(preset):
-    """The traits that a preset determines."""
-    return {name: preset[name] for name in ("resolutions", "modality", "object_state", "recursion", "valence_red",
-                                            "gains", "exploration", "learning_rate", "discount", "memory", "n_creeps")}
+    """The values of the traits that a preset determines."""
+    return {name: preset[name] for name in OF_PRESET}
 
 
 def _stated(nodes, learning, world):

@@ -46,6 +46,11 @@ export default () => {
   return {
     initialize(host) {
       model = host.model; // which outlives those of the views
+      model.on("change:_presets", () => { // Python shows other conditions
+        explorer?.stop();
+        explorer = null;
+        settle();
+      });
     },
     render({ el }) {
       const place = element("div", { className: "neorl-place" });

@@ -364,7 +364,7 @@ class Explorer {
   }
 
   stop() {
-    this.inSight = false;
+    Object.assign(this, { inSight: false, following: null });
     cancelAnimationFrame(this.scheduled);
     this.tank.stop();
     this.second.stop();

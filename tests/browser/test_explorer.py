@@ -15,7 +15,7 @@ from neorl import (CALIBRATED, Agent, Condition, Desire, Explorer, Learning, Nod
 from neorl.worlds import Arena, Vessel
 from neorl.agents.papers import OF_OBJECTS
 from neorl.agents.spaces import pilot
-from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OTHER_SPACES, STEPS
+from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OF_PRESET, OTHER_SPACES, STEPS
 from neorl.core import modality
 from companion.thesis.reading import TO_THE_LETTER as LETTER
 
@@ -158,6 +158,30 @@ def test_a_result_needs_no_name(conditions):
     explorer = Explorer(result)
     assert (explorer.preset, explorer.agent, explorer.world, explorer.seed) == ("PC N3+N5", result.agent, TANK, 5)
     assert explorer._presets["PC N3+N5"]["totals"] == result.totals.tolist()
+
+
+def test_other_conditions_take_the_place_of_those_shown_with_all_traits_from_the_beginning(conditions):
+    explorer = Explorer(PAIR, control="resolutions", run=3, recursion=None)
+    explorer.playing, explorer.gains, explorer.memory = False, [2.0], 1.0
+    with pytest.raises(ValueError, match="preset must be "):
+        explorer.show(conditions, "N4")
+    with pytest.raises(TraitError, match="discount"):
+        explorer.show(conditions, discount=2.0)
+    assert explorer.preset == "PC N3+N5" and explorer.agent.learning.memory == 1.0 and "N3" not in explorer._presets
+    explorer.show(conditions, "by N²", discount=0.5)
+    agent = conditions["by N²"].agent
+    assert explorer.agent == replace(agent, learning=replace(agent.learning, discount=0.5))
+    assert (explorer.world, explorer.seed, explorer.run, explorer.playing) == (TANK, 5, 0, True)
+    assert explorer.control == "resolutions" and "PC N3+N5" not in explorer._presets
+
+
+def test_a_page_chooses_an_agent_together_with_its_settings_or_without_any():
+    explorer = Explorer(preset="Place cells")
+    own = {name: explorer._presets["Network D"][name] for name in OF_PRESET}
+    explorer.set_state({"preset": "Network D", **own, "recursion": 0.5})
+    assert explorer.agent == network_d(recursion=0.5)
+    explorer.set_state({"preset": "Object-vector cells"})
+    assert explorer.agent == object_vector_cells()
 
 
 @pytest.mark.parametrize("what, allowed", [

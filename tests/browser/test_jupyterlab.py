@@ -1,7 +1,8 @@
-"""The Explorer in JupyterLab itself, which renders outputs off screen: colours, links and further views."""
+"""JupyterLab itself, which renders outputs off screen: the Explorer's colours, links and views, and every page's."""
 
 import json
 import os
+import re
 import subprocess
 import sys
 import time
@@ -10,7 +11,9 @@ import nbformat
 import pytest
 from explorer_page import COLOURS, coloured
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
-from playwright.sync_api import expect
+from page_cells import NOTEBOOKS as PAGES
+from page_cells import code, notebook, small
+from playwright.sync_api import Locator, expect
 
 from neorl import Run, WaterWorld, place_cells
 from neorl.common import files
@@ -20,14 +23,40 @@ LINK = '<a href="#explorer_run-2_minute-0p5">run 2</a>'
 EXPLORER = f"""import neorl
 neorl.Explorer(neorl.Condition(neorl.place_cells([3]), neorl.WaterWorld(n_creeps=8), {STEPS}, 1), speed=0)"""
 NOTEBOOKS = ["one.ipynb", "other.ipynb"]
+LIVING = {page: cells for page in sorted(path.stem for path in PAGES.glob("*.ipynb"))  # the cells of living figures
+          if (cells := [cell for cell, source in code(notebook(page)).items()
+                        if re.search(r"\b(Explorer|Turn|Replay|Changes)\(", source)])}
+TRIED = ("chapter_1", "paper_a", "paper_b", "paper_c")  # the others are tried by `make pages`
+BEFORE = ".legend", "before"  # the curve of the last run stays beside the next one's
+ANSWERS = [  # a control of a living figure, what a reader does to it, and where the figure then says what
+    (".only [data-chip]", Locator.click, *BEFORE),
+    (".only select", lambda menu: menu.select_option(index=1), *BEFORE),
+    (".only [type=range]", lambda slider: slider.fill("0.5"), *BEFORE),
+    (".neorl-turn [type=checkbox]", Locator.uncheck, *BEFORE),
+    ("[name=time]", lambda slider: slider.fill("25"), "output", "1.0 s"),
+    ("[data-more]", Locator.click, "caption", "From column"),
+    ("[name=preset]", lambda menu: menu.select_option("Vessel with a radar"), ".aims", "vessel")]
 FAR = ["\n\n".join(["below"] * 40)] * 5
 CURRENT = ".jp-NotebookPanel:not(.lm-mod-hidden)"
 SCROLLED = f"{CURRENT} .jp-WindowedPanel-outer"
+RESTARTED = "Could not restore the debugger state"  # said by JupyterLab of a kernel that has been restarted
 READY = """() => { const kernel = jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel;
                    return kernel?.connectionStatus === "connected" && kernel.status === "idle"; }"""
 # Whether the current notebook has a new Explorer, which need not be part of the page yet.
 RENDERED = """() => jupyterapp.shell.currentWidget.content.widgets.some(
     ({ node }) => node.querySelector(".neorl-explorer[data-state]:not([data-old])"))"""
+
+# The kernel that has run another notebook, and so has compiled most of what the next one needs.
+KERNEL = "() => [...jupyterapp.serviceManager.sessions.running()][0]?.kernel"
+HAS_RUN = """() => jupyterapp.shell.currentWidget.sessionContext.session.kernel.status === "idle" && jupyterapp.shell
+    .currentWidget.content.widgets.every(({ model }) => model.type !== "code" || model.executionCount)"""
+FAILED = """() => jupyterapp.shell.currentWidget.content.widgets.flatMap(({ model }) => model.outputs?.toJSON() ?? [])
+    .filter((output) => output.output_type === "error").map((output) => output.evalue)"""
+PLACE = "id => 1 + jupyterapp.shell.currentWidget.content.widgets.findIndex(({ model }) => model.id === id)"
+# Whether there is something on every canvas of a figure.
+IS_DRAWN = """figure => [...figure.querySelectorAll("canvas")].filter((each) => each.offsetHeight).every((canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return new Set(new Uint32Array(data.buffer)).size > 1; })"""
 
 
 @pytest.fixture(scope="module")
@@ -38,6 +67,8 @@ def address(tmp_path_factory):
         cells = [*map(new_markdown_cell, [LINK, *FAR]), new_code_cell(EXPLORER), *map(new_markdown_cell, FAR)]
         kernel = {"kernelspec": {"name": "python3", "display_name": "Python"}}
         nbformat.write(new_notebook(cells=cells, metadata=kernel), root / name)
+    for name in LIVING:
+        (root / f"{name}.ipynb").write_text(json.dumps(small(name)))
     (own / "labconfig").mkdir()
     (own / "labconfig" / "page_config.json").write_text(json.dumps(
         {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}))
@@ -71,6 +102,8 @@ def page(chromium, address):
     context.set_default_timeout(60_000)
     complaints, own = [], (address.partition("lab?")[0], "blob:", "data:")
     context.on("request", lambda request: request.url.startswith(own) or complaints.append(request.url))
+    context.on("console", lambda message: message.type == "error" and not message.text.startswith(
+        RESTARTED) and complaints.append(message.text))
     context.on("weberror", lambda uncaught: complaints.append(uncaught.error))
     page = context.new_page()
     page.goto(address)
@@ -84,8 +117,8 @@ def command(page, name, **choices):
     page.evaluate("([name, choices]) => { jupyterapp.commands.execute(name, choices); }", [name, choices])
 
 
-def open_notebook(page, name):
-    command(page, "docmanager:open", path=name)
+def open_notebook(page, name, **choices):
+    command(page, "docmanager:open", path=name, **choices)
     page.wait_for_function("name => jupyterapp.shell.currentWidget?.context?.path === name", arg=name)
     page.wait_for_function(READY)
 
@@ -207,3 +240,40 @@ def test_python_follows_the_switch_for_learning_and_the_switch_python(page):
     assert float(in_the_kernel(page, "print(_.agent.learning.learning_rate)")) == pytest.approx(rate)
     in_the_kernel(page, "_.learning_rate = 0.0")
     expect(switch).not_to_be_checked()
+
+
+def test_python_shows_results_where_the_reader_has_chosen_another_agent_meanwhile(page):
+    explorer, name = explorer_of(page), "PC N3, OVC N3"
+    menu = explorer.locator("[name=preset]")
+    page.evaluate("""code => {
+        jupyterapp.shell.currentWidget.sessionContext.session.kernel.requestExecute({ code });
+    }""", "import time; explorer = _; time.sleep(1); explorer.show(neorl.simulate(neorl.network_d([3]), "
+          "neorl.WaterWorld(), steps=100, runs=2, progress=False))")
+    menu.select_option("Place cells")
+    expect(menu.locator("option", has_text=name)).to_have_count(1)
+    assert in_the_kernel(page, "print(explorer.preset, explorer.gains)") == "Place cells [1.0]"
+    expect(menu).to_have_value("Place cells")
+    menu.select_option(name)
+    expect(explorer.locator(".legend")).to_contain_text("2 runs of")
+    assert in_the_kernel(page, "print(explorer.preset, explorer.gains)") == f"{name} [1.0, 1.0]"
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=() if name in TRIED else pytest.mark.pages)
+                                  for name in LIVING])
+def test_the_living_figures_of_a_page_that_has_run_are_there_and_answer(page, name):
+    open_notebook(page, f"{name}.ipynb", kernel=page.evaluate(KERNEL))
+    command(page, "notebook:run-all-cells")
+    page.wait_for_function(HAS_RUN)
+    assert page.evaluate(FAILED) == []
+    for cell in LIVING[name]:
+        figure = page.locator(CURRENT).locator(f".jp-Cell:nth-child({page.evaluate(PLACE, cell)}) .neorl-explorer")
+        figure.scroll_into_view_if_needed()
+        control, act, part, answer = next(each for each in ANSWERS if figure.locator(each[0]).count())
+        if control.startswith(".only"):
+            expect(figure.locator(".legend")).to_contain_text("2 runs of")  # those of the page
+        if part == ".legend":
+            expect(figure).to_have_attribute("data-state", re.compile("ended|whole"))
+        page.wait_for_function(IS_DRAWN, arg=figure.element_handle())
+        assert figure.bounding_box()["height"] > 200
+        act(figure.locator(control).first)
+        expect(figure.locator(part)).to_contain_text(answer)

@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from page_cells import code, executed
+from page_cells import code, executed, notebook
 
 from neorl import CARDINAL
 from neorl.custom import execute
@@ -70,7 +70,7 @@ def session(tmp_path, cache_folder):
 
 
 def test_what_cells_define_is_cached_and_saved_like_what_modules_define(session):
-    pond, rules = (next(cell for cell in code("own_world").values() if text in cell)
+    pond, rules = (next(cell for cell in code(notebook("own_world")).values() if text in cell)
                    for text in ("class Pond(World)", "def second_best("))
     longer = pond.replace("0.1, 0.04", "0.1, 0.06")
     assert longer != pond

@@ -1,19 +1,18 @@
 """The toolkit of pages: what every notebook needs beside its own experiment.
 
-`answer` opens a page with what the record says of its claims, and `Living` is a figure to try. `begin` checks the
-parameters, `judge` and `judge_papers` judge the claims about what was run, `verdicts` shows these beside the record,
-and `save` keeps them. The rest is numbers, tables and parts of figures.
+`answer` opens a page with what the record says of its claims. `begin` checks the parameters, `judge` and `judge_papers`
+judge the claims about what was run, `verdicts` shows these beside the record, and `save` keeps them. The rest is
+numbers, tables and parts of figures.
 """
 
 from companion.page.beginning import begin, listed, source
 from companion.page.judging import by_condition, judge, judge_papers, papers_conditions
-from companion.page.living import Living
 from companion.page.panels import UNDER_WHITE, add_arrow, add_curves, draw_means
 from companion.page.recorded import answer
 from companion.page.report import comparison, errata, save, verdicts
 from companion.page.thesis_figures import mark_levels
 from companion.page.wording import number, scientific, table
 
-__all__ = ["Living", "UNDER_WHITE", "add_arrow", "add_curves", "answer", "begin", "by_condition", "comparison",
-           "draw_means", "errata", "judge", "judge_papers", "listed", "mark_levels", "number", "papers_conditions",
-           "save", "scientific", "source", "table", "verdicts"]
+__all__ = ["UNDER_WHITE", "add_arrow", "add_curves", "answer", "begin", "by_condition", "comparison", "draw_means",
+           "errata", "judge", "judge_papers", "listed", "mark_levels", "number", "papers_conditions", "save",
+           "scientific", "source", "table", "verdicts"]
