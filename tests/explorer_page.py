@@ -32,6 +32,30 @@ def wait(page, state):
         document.querySelector(".neorl-explorer")?.dataset.state)""", arg=state)
 
 
+def wait_for_score(page, steps, score):
+    """Wait until a run has come to a step with a score."""
+    page.wait_for_function("""([wanted, reward]) => {
+        const { step, score } = document.querySelector(".neorl-explorer").dataset;
+        return Number(step) === wanted && Number(score) === reward;
+    }""", arg=[steps, float(score)])
+
+
+def keep_states(page):
+    """Let the page keep in `window.states` each state that its widget has from now on, however soon it passes."""
+    page.evaluate("""() => {
+        const widget = document.querySelector(".neorl-explorer");
+        window.states = [];
+        new MutationObserver(() => window.states.push(widget.dataset.state)).observe(
+            widget, { attributeFilter: ["data-state"] });
+    }""")
+
+
+def wait_for_states(page, *states):
+    """Wait until the last of these states is that of the widget, which has had the others since `keep_states`."""
+    page.wait_for_function("""states => states.every((each) => window.states.includes(each))
+        && window.states.at(-1) === states.at(-1)""", arg=states)
+
+
 def wait_for_maps(page, names):
     page.wait_for_function("""names => names.join() ===
         Array.from(document.querySelector('[name="map"]').options, (option) => option.value).join()""", arg=names)

@@ -167,9 +167,9 @@ def test_the_way_to_a_cell_is_shown_in_both_tanks(page):
 def test_a_comparison_ends_without_stopping_the_first_run(page):
     visit(page, "#explorer_agent-places_beside-things_minute-1")
     wait_for(page, step=str(MINUTE), state="paused", beside="things")
-    page.locator('[name="speed"]').fill("3")
+    page.locator('[name="speed"]').fill("0")  # so that the run goes on for minutes
     press(page, "play")
-    wait(page, "running")
+    page.wait_for_function(f"document.querySelector('.neorl-explorer').dataset.step > {MINUTE}")
     press(page, "compare")
     wait_for(page, beside=None)
     expect(page.locator(".second")).to_be_hidden()

@@ -190,8 +190,12 @@ def test_elements_and_creeps_are_dragged_to_where_the_pointer_goes(open_page, si
 
 
 def test_a_change_on_the_way_keeps_what_was_learned(open_page, site):
-    page = open_page(*site("both", speed=20.0, playing=True))
-    explorer = explorer_of(page, "running")
+    folder, name = site("both", speed=1.0)  # so that the run goes on for minutes
+    page = open_page(folder, f"{name}#explorer_second-20")
+    explorer = explorer_of(page)
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step === '1000'")
+    wait(page, "paused")
+    press(page, "play")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 1000")
     set_slider(page, "valence_red", 1)
     page.wait_for_function("document.querySelector('.legend').textContent.includes('changed on the way')")
@@ -249,7 +253,6 @@ def test_arrow_keys_play_against_the_agent_and_both_scores_are_shown(open_page, 
     page = open_page(*site("both"))
     explorer = explorer_of(page)
     press(page, "game")
-    wait(page, "running")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 5")
     scrolled = page.evaluate("scrollY")
     page.keyboard.down("ArrowDown")

@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from explorer_page import COLOURS, coloured, drop_by_keyboard, explorer_of, picture, press, wait, write_page
+from explorer_page import (COLOURS, coloured, drop_by_keyboard, explorer_of, picture, press, wait, wait_for_score,
+                           write_page)
 from matplotlib import pyplot as plt
 from playwright.sync_api import expect
 from traitlets import TraitError
@@ -34,13 +35,8 @@ def visit(open_page, tmp_path, conditions):
     return visit
 
 
-def run_of(agent=PLACES):
-    return Run(agent, TANK, SIZE["seed"])
-
-
-def wait_for_score(page, steps, score):
-    page.wait_for_function(f"([step, score]) => Number({DATA}.step) === step && Number({DATA}.score) === score",
-                           arg=[steps, float(score)])
+def run_of(agent=PLACES, run=0):
+    return Run(agent, TANK, SIZE["seed"], run)
 
 
 def bottom(box):
@@ -328,7 +324,7 @@ def test_a_control_by_itself_draws_a_whole_run_for_each_setting_and_keeps_the_la
     wait_for_score(page, SIZE["steps"], run_of(place_cells([5])).advance(SIZE["steps"]))
     expect(legend).to_have_text("N5: this runN3, N5: the one before")
     press(page, "new-run")
-    page.wait_for_function(f"{DATA}.state === 'running'")
+    wait_for_score(page, SIZE["steps"], run_of(place_cells([5]), run=1).advance(SIZE["steps"]))
     expect(legend).to_have_text("N5: this runN3, N5: the one before")
 
 
@@ -336,6 +332,6 @@ def test_with_recursion_as_its_control_a_weight_begins_a_whole_run_also_with_les
     page = visit("", {"reduced_motion": "reduce"}, preset="Network D", control="recursion", playing=True)
     wait(page, "paused")
     page.locator('[name="recursion"]').fill("0.5")
-    page.wait_for_function(f"{DATA}.state === 'running'")
+    page.wait_for_function(f"{DATA}.step > 0")
     expect(page.locator(".legend")).to_contain_text("r = 0.5: this run")
     expect(page.locator(".said")).not_to_contain_text("full speed")

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, write_page
+from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, wait_for_score, write_page
 from playwright.sync_api import expect
 
 from neorl import Desire, Explorer, Place, Run, WaterWorld, multimodal, simulate
@@ -45,11 +45,11 @@ def test_in_the_arena_it_computes_the_run_of_python_and_has_no_controls_for_cree
         const game = document.querySelector('[data-action="game"]');
         new MutationObserver(() => { window.offered ||= !game.disabled; }).observe(game, { attributes: true });
     }""")
-    page.locator('[name="preset"]').select_option("both")
+    page.locator('[name="preset"]').select_option("both")  # which begins a run at once
+    wait_for_score(page, SHORT, lived(BOTH, TANK, SHORT))
     expect(page.locator(".grip")).to_have_count(TANK.n_creeps)
     for control in ("n_creeps", "valence_red"):
         expect(page.locator(f'[name="{control}"]')).to_be_visible()
-    assert play_to_the_end(page) == lived(BOTH, TANK, SHORT)
     assert page.evaluate("window.offered")
 
 

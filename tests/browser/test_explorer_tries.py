@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from explorer_page import drop_by_keyboard, press, wait, write_page
+from explorer_page import drop_by_keyboard, keep_states, press, wait, wait_for_states, write_page
 from playwright.sync_api import expect
 
 from neorl import Explorer, Run, WaterWorld, object_vector_cells, place_cells, simulate
@@ -119,14 +119,9 @@ def test_playing_again_repeats_the_run_with_the_same_settings(visit):
     page = visit("#explorer_run-4_red-0p5")
     wait(page, "ended")
     score = shown(page, "score")
-    page.evaluate("""() => {  // the run may end before the test can look
-        const explorer = document.querySelector(".neorl-explorer");
-        window.states = [];
-        new MutationObserver(() => window.states.push(explorer.dataset.state)).observe(
-            explorer, { attributeFilter: ["data-state"] });
-    }""")
+    keep_states(page)
     press(page, "play")
-    page.wait_for_function("window.states.includes('running') && window.states.at(-1) === 'ended'")
+    wait_for_states(page, "running", "ended")
     assert shown(page, "score") == score
     expect(page.locator('[name="run"]')).to_have_value("4")
     expect(page.locator('[name="valence_red"]')).to_have_value("0.5")

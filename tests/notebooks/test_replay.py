@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from explorer_page import write_page
+from explorer_page import keep_states, wait_for_states, write_page
 from companion.shared.replay import Replay, record
 from playwright.sync_api import expect
 
@@ -57,14 +57,16 @@ def test_a_replay_plays_to_its_end_in_real_time_and_can_be_moved(open_page, tmp_
         green, red = recording.hits[-1]
         expect(replay.locator(".legend").nth(index)).to_have_text(scored(green, red))
         expect(replay.locator(".title").nth(index)).to_have_text(recording.name)
+    keep_states(page)
     replay.get_by_text("Play again").click()
-    expect(replay).to_have_attribute("data-state", "playing")
+    wait_for_states(page, "playing", "paused")
     replay.locator("[name=time]").fill("10")
     green, red = recordings[0].hits[20]
     expect(replay.locator(".legend").first).to_have_text(scored(green, red))
     expect(replay.locator("output")).to_have_text("0.4 s")
+    keep_states(page)
     replay.locator("button").click()
-    expect(replay).to_have_attribute("data-state", "playing")
+    wait_for_states(page, "playing", "paused")
     expect(replay).to_have_attribute("data-frame", "50")
 
 
@@ -74,4 +76,4 @@ def test_with_reduced_motion_a_replay_waits_for_play(open_page, tmp_path, record
     page.wait_for_timeout(300)
     assert page.locator(".neorl-replay").get_attribute("data-frame") == "0"
     page.locator(".neorl-replay button").click()
-    expect(page.locator(".neorl-replay")).to_have_attribute("data-state", "playing")
+    expect(page.locator(".neorl-replay")).to_have_attribute("data-frame", "50")
