@@ -111,7 +111,7 @@ class Explorer(AnyWidget):
     drawn at full speed, beside the last run of another setting.
     Choosing a preset sets the traits that it determines. An agent that is not a condition is in the tank of the first
     condition in WaterWorld, or else in one with 3 creeps; an agent to the letter has the letter's steps per second and
-    contacts; agents in the arena are in `neorl.worlds.Arena()`, and agents of other spaces in their own worlds.
+    contacts; agents in the arena are in a `neorl.worlds.Arena`, and agents of other spaces in their own worlds.
     seconds and score follow the run, about once per second. All views of an Explorer share that run.
 
     Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
