@@ -28,6 +28,8 @@ from neorl.agents.agent import LEARNED, STATES, Agent, Desire, Node
 from neorl.agents.embodiment import choices_in, loop_of
 from neorl.agents.rules import Learning, Policy
 from neorl.browser import wasm
+from neorl.browser.settings import (AVOIDED, SETTINGS, Checked, check, described, integers, reals, settings_of,
+                                    stated_nodes)
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
 from neorl.common import checks
 from neorl.common.extras import require
@@ -73,13 +75,10 @@ AGENTS = {name: agent for agents in GROUPS.values() for name, agent in agents.it
 LABELS = {"Foveated cells, contacts alone": "Forager: foveated cells, contacts alone"}
 STEPS = 300_000  # of a run of an agent that is not a condition of the page
 LITTLE_HAPPENS = 120_000  # first steps of networks of desires, which the page runs at full speed
-AVOIDED = ("red", "obstacle", "vessel")  # the kinds whose valence has a control
 CURVE_BINS = 50
 SCRIPTS = ("elements.js", "settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js",
            "panel.js", "traits.js", "tank.js", "hands.js", "beside.js", "controls.js", "showing.js", "starters.js",
            "address.js", "tour.js", "saving.js", "widget.js", "shared.js")
-OF_PRESET = ("resolutions", "modality", "object_state", "recursion", "valence_red", "gains", "exploration",
-             "learning_rate", "discount", "memory", "n_creeps")  # the traits that a preset determines
 CONTROLS = ("preset", "resolutions", "modality", "object_state", "recursion", "valence_red")
 
 
@@ -126,31 +125,33 @@ class Explorer(AnyWidget):
     _presets = traitlets.Dict().tag(sync=True)
     _modalities = traitlets.Dict().tag(sync=True)
     _agents = traitlets.Dict()  # of the presets, and their worlds
-    _whole = False  # whether a preset is being set together with its settings
+    _whole = False  # whether a preset is being set together with all of its settings
+    _known = {}  # the last preset, and its settings
 
     preset = traitlets.Unicode().tag(sync=True)
-    resolutions = traitlets.List(traitlets.Int(min=1, max=90), minlen=1).tag(sync=True)
+    resolutions = Checked(integers, at_least=1, at_most=90).tag(sync=True)
     modality = traitlets.Unicode().tag(sync=True)
     object_state = traitlets.Unicode().tag(sync=True)
-    recursion = traitlets.Float(allow_none=True).tag(sync=True)
-    valence_red = traitlets.Float().tag(sync=True)
-    gains = traitlets.List(traitlets.Float()).tag(sync=True)
-    exploration = traitlets.Float(min=0, max=1).tag(sync=True)
-    learning_rate = traitlets.Float(min=0, max=1).tag(sync=True)
-    discount = traitlets.Float(min=0, max=1).tag(sync=True)
-    memory = traitlets.Float(min=0).tag(sync=True)
-    n_creeps = traitlets.Int(min=1, max=20, allow_none=True).tag(sync=True)
-    seed = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
-    run = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
-    speed = traitlets.Float(20.0, min=0).tag(sync=True)
-    playing = traitlets.Bool(True).tag(sync=True)
-    control = traitlets.Unicode().tag(sync=True)
+    recursion = Checked(checks.real, None, or_none=True).tag(sync=True)
+    valence_red = Checked(checks.real, 0.0).tag(sync=True)
+    gains = Checked(reals).tag(sync=True)
+    exploration = Checked(checks.real, 0.0, at_least=0, at_most=1).tag(sync=True)
+    learning_rate = Checked(checks.real, 0.0, at_least=0, at_most=1).tag(sync=True)
+    discount = Checked(checks.real, 0.0, at_least=0, at_most=1).tag(sync=True)
+    memory = Checked(checks.real, 0.0, at_least=0).tag(sync=True)
+    n_creeps = Checked(checks.integer, None, or_none=True, at_least=1, at_most=20).tag(sync=True)
+    seed = Checked(checks.integer, 0, at_least=0, at_most=2**32 - 1).tag(sync=True)
+    run = Checked(checks.integer, 0, at_least=0, at_most=2**32 - 1).tag(sync=True)
+    speed = Checked(checks.real, 20.0, at_least=0).tag(sync=True)
+    playing = Checked(checks.flag, True).tag(sync=True)
+    control = Checked(checks.one_of, "", options=("", *CONTROLS)).tag(sync=True)
     seconds = traitlets.Float().tag(sync=True)
     score = traitlets.Float().tag(sync=True)
 
     def __init__(self, conditions=None, preset=None, **traits):
-        super().__init__(_wasm=wasm.modules(), _layout={name: wasm.layout(name) for name in wasm.MODULES},
-                         _modalities=_modalities(), **self._shown(conditions, preset, traits))
+        with self._choosing(True):
+            super().__init__(_wasm=wasm.modules(), _layout={name: wasm.layout(name) for name in wasm.MODULES},
+                             _modalities=_modalities(), **self._shown(conditions, preset, traits))
 
     def show(self, conditions=None, preset=None, **traits):
         """Show other conditions wherever this Explorer stands, such as results that have been computed since.
@@ -164,7 +165,7 @@ class Explorer(AnyWidget):
 
     def set_state(self, sync_data):
         """Set what a page has set, which chooses a preset together with its settings, and sends those that differ."""
-        with self._choosing(not set(OF_PRESET).isdisjoint(sync_data)):
+        with self._choosing(not set(SETTINGS).isdisjoint(sync_data)):
             super().set_state(sync_data)
 
     @contextlib.contextmanager
@@ -199,67 +200,44 @@ class Explorer(AnyWidget):
             checks.one_of("trait", name, tuple(each for each in self.traits(sync=True) if not each.startswith("_")))
         defaults = {name: self.traits()[name].default_value for name in ("run", "speed", "playing")}
         return {"_agents": agents, "_presets": presets, **defaults, "preset": preset,
-                "seed": first.seed if first else 0, **_settings(presets[preset]), **traits}
+                "seed": first.seed if first else 0, **settings_of(presets[preset]), **traits}
 
     @property
     def agent(self):
         """The `Agent` that the traits describe, without elements dropped in the page."""
-        preset, world = self._agents[self.preset]
-        named = {each.name: each for each in MODALITIES}
-        own = self.resolutions == self._presets[self.preset]["resolutions"]
-        nodes = [replace(node, resolutions=node.resolutions if own else self.resolutions, gain=gain)
-                 for node, gain in zip(preset.nodes, self.gains)]
-        if self.modality not in ("", self._presets[self.preset]["modality"]) and len(nodes) == 1:
-            nodes = [replace(nodes[0], modality=named[self.modality], state="object", reach=0.0, beyond="outermost")]
-        for n in _stated(nodes, preset.learning, world):
-            state = self.object_state or "object"
-            nodes[n] = replace(nodes[n], state=state, reach=nodes[n].reach if state == "object" else 0.0)
-        desires = [replace(each, valence=self.valence_red) if each.source in AVOIDED else
-                   replace(each, valence=self.recursion) if each.source == each.target else each
-                   for each in preset.desires]
-        learning = replace(preset.learning, learning_rate=self.learning_rate, discount=self.discount,
-                           memory=self.memory)
-        return replace(preset, nodes=nodes, desires=desires, learning=learning,
-                       policy=replace(preset.policy, exploration=self.exploration))
+        return described(*self._agents[self.preset], self._presets[self.preset], self._settings())[0]
 
     @property
     def world(self):
         """The agent's world."""
-        _, world = self._agents[self.preset]
-        return replace(world, n_creeps=self.n_creeps) if isinstance(world, WaterWorld) else world
+        return described(*self._agents[self.preset], self._presets[self.preset], self._settings())[1]
 
-    @traitlets.validate("preset", "modality", "object_state", "recursion", "valence_red", "gains", "memory", "n_creeps",
-                        "control")
+    def _settings(self):
+        """The settings of the traits; of another preset its own, but for those that have been changed with it."""
+        now = {name: getattr(self, name) for name in SETTINGS}
+        if self._whole or self.preset == self._known["preset"]:
+            return now
+        own = settings_of(self._presets[self.preset])
+        return {name: own[name] if value == self._known[name] else value for name, value in now.items()}
+
+    @traitlets.validate("preset", *SETTINGS)
     def _check(self, proposal):
         name, value = proposal["trait"].name, proposal["value"]
         try:
-            if name in ("preset", "control"):
-                return checks.one_of(name, value, ("", *CONTROLS) if name == "control" else tuple(self._presets))
-            if name == "modality":
-                own = self._agents[self.preset][0].nodes[0].goals == "contacts"
-                return checks.one_of(name, value, ("",) if own else ("", *self._modalities))
-            if name == "object_state":
-                return checks.one_of(name, value, self._presets[self.preset]["states"])
-            agent, world = self._agents[self.preset]
-            if name == "n_creeps" and value is not None and not isinstance(world, WaterWorld):
-                raise checks.error("n_creeps", "None outside WaterWorld", value)
-            nodes = len(agent.nodes)
-            if name == "gains" and len(value) != nodes:
-                raise checks.error("gains", f"a number for each of the {nodes} nodes", value)
-            if name == "memory" and value and not self._presets[self.preset]["can_remember"]:
-                raise checks.error("memory", "0 for an agent that learns at every step", value)
-            for number in value if name == "gains" else () if value is None else (value,):
-                checks.real(name, number)
+            if name == "preset":
+                return checks.one_of(name, value, tuple(self._presets))
+            check(name, *self._agents[self.preset], self._presets[self.preset], self._settings() | {name: value})
             return value
         except ValueError as error:
             raise traitlets.TraitError(str(error)) from None
 
-    @traitlets.observe("preset")
-    def _take_settings(self, change):
-        if change["old"] and not self._whole:
-            with self.hold_sync():
-                for name, value in _settings(self._presets[change["new"]]).items():
-                    setattr(self, name, value)
+    @traitlets.observe("preset", *SETTINGS)
+    def _take_settings(self, _):
+        settings = self._settings()
+        self._known = {"preset": self.preset, **settings}
+        with self.hold_sync(), self.hold_trait_notifications():
+            for name, value in settings.items():
+                setattr(self, name, value)
 
 
 def _by_name(conditions):
@@ -286,7 +264,7 @@ def _check_condition(name, condition):
     agent = condition.agent
     for what, values in (("valences of red", {each.valence for each in agent.desires if each.source in AVOIDED}),
                          ("recursions", {each.valence for each in agent.desires if each.source == each.target}),
-                         ("states of object vectors", {agent.nodes[n].state for n in _stated(
+                         ("states of object vectors", {agent.nodes[n].state for n in stated_nodes(
                              agent.nodes, agent.learning, condition.world)})):
         if len(values) > 1:
             raise ValueError(f"{what} in condition {name} must be the same throughout, but are {values}")
@@ -302,18 +280,6 @@ def _check_condition(name, condition):
                              "choice, but has its own, for an axis, the credit or the choice of an action")
 
 
-def _settings(preset):
-    """The values of the traits that a preset determines."""
-    return {name: preset[name] for name in OF_PRESET}
-
-
-def _stated(nodes, learning, world):
-    """The numbers of the nodes of Cartesian object vectors with cells as goals, whose state can be chosen."""
-    return [n for n, node in enumerate(nodes) if learning.update_on == "cell" and node.goals == "cells"
-            and node.modality.follows == "objects" and node.modality.is_cartesian
-            and len(node.modality.axes) == world.actions.axes]
-
-
 def _preset(name, agent, world, condition):
     """A preset in the page's format: its settings, the chosen parameters, and the results of its runs, if any."""
     result = condition if isinstance(condition, Result) else None
@@ -322,7 +288,7 @@ def _preset(name, agent, world, condition):
     names = [node.name for node in agent.nodes]
     modality = agent.nodes[0].modality
     learning = agent.learning
-    stated = _stated(agent.nodes, learning, world)
+    stated = stated_nodes(agent.nodes, learning, world)
     in_menu = _named(modality) if len(names) == 1 else ""
     could_be = in_menu and agent.nodes[0].goals == "cells" and learning.update_on == "cell"
     return {
@@ -411,5 +377,5 @@ def _band(result):
 def _modalities():
     """The parameters of a node of each modality, by name, and whether its state can be chosen."""
     return {each.name: {"node": _as_json(choices_of([each])[0]),
-                "stated": _stated([Node(each.name, each, [1])], Learning(), WaterWorld()) == [0]}
+                "stated": stated_nodes([Node(each.name, each, [1])], Learning(), WaterWorld()) == [0]}
             for each in MODALITIES if each.takes_places}

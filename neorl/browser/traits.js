@@ -77,14 +77,16 @@ class Traits {
     if (!preset) return `There is no agent “${get("preset")}”. Choose one from the menu.`;
     const [isNumber, isPlace, { nodes }] = [Number.isFinite, isWhole(0, MOST_SEED), preset];
     const allowed = {
-      resolutions: (value) => isList(value, isWhole(1, 90)), valence_red: isNumber, learning_rate: isNumber,
-      modality: (value) => nodes.length > 1 || value === "" || Object.hasOwn(modalities, value), discount: isNumber,
+      resolutions: (value) => isList(value, isWhole(1, 90)), learning_rate: isNumber, discount: isNumber,
+      modality: (value) => value === "" || (preset.modality !== "" && Object.hasOwn(modalities, value)),
+      valence_red: (value) => (preset.red.length ? isNumber(value) : value === preset.valence_red),
       memory: (value) => value === 0 || (value > 0 && preset.can_remember),
       object_state: (value) => preset.states.includes(value),
       exploration: (value) => value >= 0 && value <= 1,
       gains: (value) => isList(value, isNumber) && value.length === nodes.length, seed: isPlace,
       n_creeps: (value) => (preset.n_creeps === null ? value === null : isWhole(1, 20)(value)),
-      recursion: (value) => preset.recursion === null || isNumber(value), speed: (value) => value >= 0, run: isPlace };
+      recursion: (value) => (preset.recursion === null ? value === null : isNumber(value)),
+      speed: (value) => value >= 0, run: isPlace };
     const wrong = Object.keys(allowed).find((name) => !allowed[name](get(name)));
     return wrong ? `The Explorer cannot run with ${wrong} = ${JSON.stringify(get(wrong))}.` : "";
   }

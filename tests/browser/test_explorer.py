@@ -15,7 +15,8 @@ from neorl import (CALIBRATED, Agent, Condition, Desire, Explorer, Learning, Nod
 from neorl.worlds import Arena, Vessel
 from neorl.agents.papers import OF_OBJECTS
 from neorl.agents.spaces import pilot
-from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OF_PRESET, OTHER_SPACES, STEPS
+from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OTHER_SPACES, STEPS
+from neorl.browser.settings import SETTINGS
 from neorl.core import modality
 from companion.thesis.reading import TO_THE_LETTER as LETTER
 
@@ -110,19 +111,64 @@ def test_the_state_is_json_and_a_second_widget_brings_its_own(conditions):
     assert Explorer(seed=7).get_state()["seed"] == 7
 
 
-@pytest.mark.parametrize("trait, value, allowed", [
-    ("preset", "Network E", "preset must be 'Foveated cells, contacts alone', 'Place and object-vector cells', '"),
-    ("object_state", "thing", "object_state must be '', 'object', 'self' or 'per object', but is 'thing'"),
-    ("gains", [1.0, 1.0], r"gains must be a number for each of the 1 nodes, but is \[1.0, 1.0\]"),
-    ("valence_red", float("nan"), r"valence_red must be a finite number from -1e\+30 to 1e\+30, but is nan"),
-    ("resolutions", [], "resolutions"), ("n_creeps", 0, "n_creeps"), ("seed", -1, "seed"),
-    ("discount", 1.5, "discount")])
-def test_a_bad_trait_is_refused_and_the_old_one_stays(trait, value, allowed):
-    explorer = Explorer(preset="Place cells")
-    before = getattr(explorer, trait)
+FORAGER, NETWORK, MAZE = "Foveated cells, contacts alone", "Network D", "Place cells in the water maze"
+ARM = "Arm of two links"
+
+
+@pytest.mark.parametrize("preset, trait, value, allowed", [
+    ("Place cells", "preset", "Network E", "preset must be 'Foveated cells, contacts alone', 'Place and object-vec"),
+    ("Place cells", "object_state", "thing", "object_state must be '', 'object', 'self' or 'per object', but is 'thi"),
+    ("Place cells", "gains", [1.0, 1.0], r"gains must be a number for each of the 1 nodes, but is \[1.0, 1.0\]"),
+    ("Place cells", "gains", [np.nan], r"gains must be a finite number from -1e\+30 to 1e\+30, but is nan"),
+    ("Place cells", "valence_red", np.nan, r"valence_red must be a finite number from -1e\+30 to 1e\+30, but is nan"),
+    ("Place cells", "resolutions", [], "resolutions must be a list of one number or more, but is"),
+    ("Place cells", "resolutions", [91], "resolutions must be an integer from 1 to 90, but is 91"),
+    ("Place cells", "resolutions", "35", "resolutions must be a list or a tuple, but is '35'"),
+    (FORAGER, "resolutions", [9, 5], "resolutions must be integers that grow, with contacts as goals, but is"),
+    ("Place cells", "n_creeps", 0, "n_creeps must be an integer from 1 to 20, but is 0"),
+    ("Place cells", "n_creeps", None, "n_creeps must be an integer from 1 to 20, but is None"),
+    (ARM, "n_creeps", 3, "n_creeps must be None outside WaterWorld, but is 3"),
+    ("Place cells", "recursion", -3.0, "recursion must be None for Place cells, .* choose an agent that does, such as"),
+    (NETWORK, "recursion", None, "recursion must be a finite number from .*, but is None"),
+    (MAZE, "valence_red", 1.0, "valence_red must be 0 for Place cells in the water maze, for which nothing is to be a"),
+    (NETWORK, "modality", "border cell", "modality must be '' for Network D, whose nodes keep their own, but is"),
+    (ARM, "modality", "place cell", "modality must be '' for Arm of two links, whose nodes keep their own, but is"),
+    ("Place cells", "modality", "grid cell", "modality must be '', 'place cell', 'border cell', 'object-"),
+    ("Place cells", "seed", -1, "seed must be an integer from 0 to 4294967295, but is -1"),
+    ("Place cells", "discount", 1.5, "discount must be a number from 0 to 1, but is 1.5"),
+    ("Place cells", "playing", 1, "playing must be True or False, but is 1")])
+def test_a_bad_trait_is_refused_and_the_old_one_stays(preset, trait, value, allowed):
+    explorer = Explorer(preset=preset)
+    before, agent = getattr(explorer, trait), explorer.agent
     with pytest.raises(TraitError, match=allowed):
         setattr(explorer, trait, value)
-    assert getattr(explorer, trait) == before
+    assert getattr(explorer, trait) == before and explorer.agent == agent
+    with pytest.raises((TraitError, ValueError), match=allowed):
+        Explorer(**{"preset": preset, trait: value})
+
+
+@pytest.mark.parametrize("trait, value, kept", [
+    ("resolutions", np.array([3, 5]), [3, 5]), ("resolutions", (np.int64(4),), [4]), ("gains", np.array([2.0]), [2.0]),
+    ("valence_red", np.float32(0.5), 0.5), ("discount", np.array(0.5), 0.5), ("n_creeps", np.int8(5), 5),
+    ("playing", np.False_, False)])
+def test_numbers_of_numpy_are_kept_as_those_of_python(trait, value, kept):
+    explorer = Explorer(preset="Place cells")
+    setattr(explorer, trait, value)
+    assert getattr(explorer, trait) == kept and json.dumps(getattr(explorer, trait)) == json.dumps(kept)
+
+
+def test_what_is_set_together_with_an_agent_is_kept_and_the_rest_is_the_agent_s_own():
+    explorer = Explorer(preset="Place cells", resolutions=[3], exploration=0.1)
+    with explorer.hold_trait_notifications():
+        explorer.gains = [0.5, 2.0]
+        explorer.preset = "Network D"
+    assert explorer.agent == network_d(place_gain=0.5, object_gain=2.0)
+    with pytest.raises(TraitError, match="gains must be a number for each of the 1 nodes"):
+        with explorer.hold_trait_notifications():
+            explorer.preset, explorer.gains = "Place cells", [0.5, 1.0]
+    assert explorer.agent == network_d(place_gain=0.5, object_gain=2.0)
+    explorer.preset = "Place cells"
+    assert explorer.agent == place_cells()
 
 
 @pytest.mark.parametrize("agent, seed, allowed", [
@@ -177,7 +223,7 @@ def test_other_conditions_take_the_place_of_those_shown_with_all_traits_from_the
 
 def test_a_page_chooses_an_agent_together_with_its_settings_or_without_any():
     explorer = Explorer(preset="Place cells")
-    own = {name: explorer._presets["Network D"][name] for name in OF_PRESET}
+    own = {name: explorer._presets["Network D"][name] for name in SETTINGS}
     explorer.set_state({"preset": "Network D", **own, "recursion": 0.5})
     assert explorer.agent == network_d(recursion=0.5)
     explorer.set_state({"preset": "Object-vector cells"})
@@ -238,4 +284,4 @@ def test_the_rest_of_the_package_does_without_the_widget():
     without = ("import sys; sys.modules.update(dict.fromkeys(['anywidget', 'ipywidgets', 'traitlets', 'IPython']"
                ")); import neorl; neorl.simulate; neorl.Explorer")
     refused = subprocess.run([sys.executable, "-c", without], capture_output=True, text=True)
-    assert "anywidget must be installed for this, but is not; pip install 'neorl-companion[wasm]'" in refused.stderr
+    assert "traitlets must be installed for this, but is not; pip install 'neorl-companion[wasm]'" in refused.stderr
