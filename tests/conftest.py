@@ -32,9 +32,10 @@ QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "-
 PATIENCE = 60_000  # milliseconds that a test waits for a page, since the machine may be busy
 
 # The files that take longest, lest one is left when all other workers have finished; those that open pages come later.
-FIRST = ("test_make", "test_compiling", "test_maze", "test_variations", "test_compiler_off", "test_sweeping",
-         "test_claims", "test_paper_a", "test_calibration", "test_captions", "test_fuzzing", "test_fuzzed_kernels",
-         "test_jupyterlab", "test_star", "test_engine", "test_explorer_loads", "test_readme", "test_book")
+FIRST = ("test_make", "test_sweeping", "test_compiling", "test_variations", "test_chapter_4", "test_other_spaces",
+         "test_store", "test_staleness", "test_fuzzing", "test_fuzzed_kernels", "test_record", "test_star",
+         "test_engine", "test_jupyterlab", "test_explorer_tries", "test_explorer_page", "test_explorer_loads",
+         "test_exactness", "test_explorer_shown", "test_calibration", "test_saved_code", "test_book", "test_readme")
 
 
 # The kernels of nearly all tests, and the modules of those that open pages.

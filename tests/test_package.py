@@ -12,6 +12,7 @@ from pathlib import Path
 import grimp
 import numpy as np
 import pytest
+from conftest import FIRST
 
 import neorl
 from neorl.common.extras import require
@@ -59,6 +60,10 @@ def test_an_installation_compiles_nothing_and_carries_what_the_wheel_to_publish_
         assert files == {path.relative_to(ROOT / "neorl") for path in (ROOT / "neorl").rglob("*.*")
                          if path.suffix in (".py", ".toml", ".typed", ".csv", ".json", ".js", ".css")} | {
                              Path("browser", name) for name in given}
+
+
+def test_the_files_that_run_first_exist():
+    assert {*FIRST} <= {path.stem for path in (ROOT / "tests").rglob("test_*.py")}
 
 
 def test_every_extra_that_a_message_names_exists():
