@@ -1,6 +1,7 @@
 """A small world of a user's own, for tests: steps in a square pond, whose lily pad ends an episode.
 
-Run as a program, this file sends the world, then of the main program, and an agent to processes started by methods.
+Run as a program, this file sends the world, then of the main program, and an agent to processes: to a worker of a sweep
+and to an environment, each started by a method.
 """
 
 import subprocess
@@ -62,7 +63,7 @@ def always(action):
     return choose
 
 
-def main(*methods):
+def main(of_worker, of_environment):
     import cloudpickle
     from gymnasium.vector import AsyncVectorEnv
 
@@ -72,12 +73,11 @@ def main(*methods):
                   policy=Policy(0.9, choose=always(1)))
     condition = Condition(agent, Pond(), 5_000, 2)
     here = simulate(**condition.choices, progress=False)
-    for method in methods:
-        with ProcessPoolExecutor(1, get_context(method)) as pool:
-            assert list(sweep([condition], pool, progress=False, cache=False)) == [here] and here.totals.any()
-        envs = AsyncVectorEnv([lambda: gym.WorldEnv(Pond())], context=method)
-        assert (envs.reset(seed=3)[0] == gym.VectorWorldEnv(Pond(), 1).reset(seed=3)[0]).all()
-        envs.close()
+    with ProcessPoolExecutor(1, get_context(of_worker)) as pool:
+        assert list(sweep([condition], pool, progress=False, cache=False)) == [here] and here.totals.any()
+    envs = AsyncVectorEnv([lambda: gym.WorldEnv(Pond())], context=of_environment)
+    assert (envs.reset(seed=3)[0] == gym.VectorWorldEnv(Pond(), 1).reset(seed=3)[0]).all()
+    envs.close()
     work = cloudpickle.dumps(lambda: simulate(**condition.choices, progress=False).totals.tolist())
     # A worker such as those of loky and Dask, which does not know the main program.
     elsewhere = [sys.executable, "-c", "import pickle, sys\nprint(pickle.load(sys.stdin.buffer)())"]

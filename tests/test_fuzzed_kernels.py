@@ -112,7 +112,7 @@ def appearance():
 COMPILED = int(os.environ.get("SETTINGS", 1_000))
 
 
-@pytest.mark.parametrize("jit, first, count", [(False, 0, 2 * len(SETTINGS)), *(
+@pytest.mark.parametrize("jit, first, count", [(False, 0, len(SETTINGS)), *(
     pytest.param(True, first, min(100, COMPILED - first), marks=pytest.mark.fuzz)
     for first in range(0, COMPILED, 100))])
 def test_wild_kernels_bring_an_error_or_a_result(jit, first, count):

@@ -8,7 +8,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-from public_calls import TABLE
 from public_names import NOTHING_TO_REPLACE, public_names
 
 EXAMPLES = os.environ.get("NEORL_FUZZ")
@@ -16,6 +15,8 @@ QUICK = "40"
 
 
 def test_every_public_name_is_in_the_table():
+    from public_calls import TABLE  # here, since it takes long, and all workers import this file
+
     assert sorted(public_names() - set(TABLE) - NOTHING_TO_REPLACE) == []
 
 

@@ -35,7 +35,10 @@ def unexplained(found):
             if each["verdict"] in VERDICTS[:5] and each["verdict"] != explained(each)}
 
 
-def test_the_record_holds():
+@pytest.mark.parametrize("sampled", [("layers", "both", ("network", "D"), "revalued"),
+                                     pytest.param(record.SAMPLED, marks=pytest.mark.exact)], ids=["some", "all"])
+def test_the_record_holds(sampled, monkeypatch):
+    monkeypatch.setattr(record, "SAMPLED", sampled)
     moved = record.moved(report.record())
     assert not moved, f"{'; '.join(moved)}: runs are not as recorded: {record.REMEDY}"
 

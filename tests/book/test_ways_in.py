@@ -14,7 +14,6 @@ from pathlib import Path
 import nbformat
 import pytest
 from jupyter_client.manager import start_new_kernel
-from jupyter_server.services.contents.largefilemanager import AsyncLargeFileManager
 from companion.page import saving
 from nbformat.v4 import new_code_cell, new_notebook, new_output
 from traitlets.config import Config
@@ -82,6 +81,8 @@ def test_a_terminal_shows_progress_and_a_file_does_not(terminal, monkeypatch):
 @pytest.fixture
 def lab(tmp_path, monkeypatch):
     """The contents manager of `make lab`, for a clone with the pages."""
+    from jupyter_server.services.contents.largefilemanager import AsyncLargeFileManager  # here, since it takes long
+
     command = subprocess.run(["make", "--dry-run", "lab"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
     assert ("--allow-root" in command) == (os.getuid() == 0)
     hook = re.search(r"--ContentsManager.pre_save_hook=(\S+)", command)[1]
