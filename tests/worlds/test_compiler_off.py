@@ -1,4 +1,4 @@
-"""Runs in worlds other than the tank are the same with the compiler switched off; `make exact` tries all of them.
+"""Runs in worlds other than the tank are the same with the compiler switched off; `make exact` adds a user's worlds.
 
 The other process is this file run as a program, with NUMBA_DISABLE_JIT.
 """
@@ -50,9 +50,9 @@ def by_a_learner():
     return bool(run.q().any() and np.array_equal(learner.q(), run.q()))
 
 
-# The others have numbers of axes and actions for which all kernels of the agent are compiled once more.
-@pytest.mark.parametrize("names", [("maze", "water maze"), pytest.param((*LIVES,), marks=pytest.mark.exact)],
-                         ids=["some", "all"])
+# For the numbers of axes and actions of a user's worlds, all kernels of the agent are compiled once more.
+@pytest.mark.parametrize("names", [("maze", "arm", "vessel", "water maze"),
+                                   pytest.param((*LIVES,), marks=pytest.mark.exact)], ids=["package", "all"])
 def test_runs_are_the_same_and_a_learner_equals_one(names):
     assert printed(__file__, *names) == {"learner": True, **digests(names)}
 
