@@ -106,6 +106,7 @@ class Kernel:
             if self._reading is None or not self._reading.stands():
                 self._reading, self._dispatchers = _read(self), {}
             if name not in self._dispatchers:
+                jit_is_off()  # or it raises: numba may have been imported just now
                 self._dispatchers[name] = getattr(compiling, name)(self, self._reading)
                 # numba's dispatcher asks itself for code for new types: this way its error names the kernel to blame,
                 # and calls with known types take no longer than numba's own.

@@ -3,7 +3,7 @@
 pickle finds code by its name again, and cloudpickle saves by its content what others could not find, such as what a
 notebook defines. An object is not told which of them asks it, so a *definition*, a class that is an attribute of the
 code, stands for it: cloudpickle saves it by its content where it so saves other classes of the same module, and pickle
-as `_by_name` has it.
+by the name of the code.
 
 Once a cell has run again, a name stands for another object. If that has the same code, it is saved instead. If not,
 pickle refuses what has the name no longer, and unpickling refuses what has another digest.

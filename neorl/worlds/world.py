@@ -106,8 +106,8 @@ class World(Described, metaclass=_Checking):
         digest, now = digest_of(self.determinants), present(type(self))
         if now is not type(self):
             with contextlib.suppress(Exception):  # of any class: the user's code is run
-                _unpickled(digest, make, again := (now, *arguments[1:]), state)
-                arguments = again
+                _unpickled(digest, make, (now, *arguments[1:]), state)
+                arguments = now, *arguments[1:]
         return _unpickled, (digest, make, arguments, state)
 
     @property

@@ -37,6 +37,21 @@ print(bool(numba.config.DISABLE_JIT))
 """
 
 
+def test_a_switch_that_is_changed_before_numba_is_imported_is_refused():
+    done = subprocess.run([sys.executable, "-c", CHANGE], capture_output=True, text=True,
+                          env=os.environ | {"NUMBA_DISABLE_JIT": "0"})
+    assert done.stderr.splitlines()[-1].startswith("RuntimeError: numba's compiler must stay on, as it was when neorl")
+
+
+CHANGE = """
+import os
+from neorl.kernels.execution import execute
+from neorl.kernels.kernel import kernel
+os.environ["NUMBA_DISABLE_JIT"] = "1"
+execute(kernel(lambda x: x), 1)
+"""
+
+
 def test_a_switch_that_is_changed_later_is_refused_by_whatever_uses_a_kernel(monkeypatch):
     import numba
 
