@@ -28,9 +28,8 @@ REPEAT = """from IPython.display import SVG
 from companion.page import report
 lines = "".join(f"<path d='M{k} 0V{k % 7}'/>" for k in range(200))"""
 DRAW = """SVG(f"<svg xmlns='http://www.w3.org/2000/svg' width='75pt' height='30pt'>{lines}<!--{lines * 80}--></svg>")"""
-FIND_SHARES = "report.save('assumptions', shares={'A2': {'agrees': 1, 'measured': 4}})"
-CONCLUDE = """from companion.page import report
-report.save("chapter_5")"""
+SAVE = "report.CLAIMS_OF.clear()\nreport.save('{}')"  # as a page without claims, since these judge none
+CONCLUDE = f"from companion.page import report\n{SAVE.format('chapter_5')}"
 CONFIG = """title: A small book
 only_build_toc_files: true
 execute: {execute_notebooks: "off"}
@@ -62,8 +61,8 @@ def make_tree(tree):
                           "book/_toc.yml": TOC, "book/index.md": INDEX, "book/running.md": "# Running it\n",
                           "book/glossary.md": "# Glossary\n\n```{glossary}\nmap\n  Cells.\n```\n"}.items():
         (tree / name).write_text(content)
-    write_notebook(tree, "assumptions", SIMULATE, DRAW, FIND_SHARES)
-    write_notebook(tree, "paper_a", REPEAT, DRAW, "report.save('paper_a')")
+    write_notebook(tree, "assumptions", SIMULATE, DRAW, SAVE.format("assumptions"))
+    write_notebook(tree, "paper_a", REPEAT, DRAW, SAVE.format("paper_a"))
     write_notebook(tree, "chapter_5", CONCLUDE)
     return tree
 
@@ -120,6 +119,7 @@ def assert_no_half_page(tree):
         for page in pages:
             assert (html / f"{page}.html").read_text().rstrip().endswith("</html>"), page
         assert len(list((html / "_images").glob("fig-*.svg"))) == 2
+        assert {path.stem for path in chapters.glob("*.claims.json")} == {f"{name}.claims" for name in NOTEBOOKS}
 
 
 def pages(tree):
