@@ -6,16 +6,16 @@ the state is compared with its range, since kernels would trust it.
 """
 
 from collections import Counter
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from neorl.agents.agent import LEARNED
 from neorl.common import checks
 from neorl.core.layout import DERIVED, ENTRIES, KEEPING, PART_OF, PLACES, TRACKS, VALUES, Memory, of_agent, of_desire
-from neorl.core.maps import NresMap
 from neorl.core.scene import ABSENT
 from neorl.kernels.annotations import arrays, fields
+from neorl.kernels.identity import identity
 
 OF_AGENT, OF_DESIRE = ([name for name, *_ in fields_of()] for fields_of in (of_agent, of_desire))
 MOST = 2**62  # of a count
@@ -28,16 +28,16 @@ class MapKey(NamedTuple):
     goals: str
     state: str
     beyond: str
-    map: NresMap
+    map: str  # its identity, since an axis that a user has defined again is the same as long as its code is
     place: int  # among equal ones
 
 
 def map_keys(agent):
     """The `MapKey` of each of an agent's maps."""
-    keys = [(node.name, node.goals, node.state, node.beyond, each) for node in agent.nodes for each in node.maps]
-    before: Counter = Counter()
-    for key in keys:
-        yield MapKey(*key, before[key])
+    before: Counter[Any] = Counter()
+    for node, nres_map in ((node, nres_map) for node in agent.nodes for nres_map in node.maps):
+        key = MapKey(node.name, node.goals, node.state, node.beyond, identity(nres_map), 0)
+        yield key._replace(place=before[key])
         before[key] += 1
 
 
@@ -87,6 +87,7 @@ def transfer(source_agent, source_record, source_memory, agent, record, memory):
     for m, (mine, theirs) in enumerate(zip(keys, source_keys)):
         for name, one, another in zip(MapKey._fields, mine, theirs):
             if one != another:
+                one, another = (agent.maps[m], source_agent.maps[m]) if name == "map" else (one, another)
                 raise ValueError(f"other must have the maps of this one, but of its map {m} {name} is {another!r}, "
                                  f"and here {one!r}")
     for m in range(len(keys)):
@@ -179,9 +180,9 @@ def _remembers(agent, m):
 
 def _desire_keys(agent):
     nodes = {node.name: node for node in agent.nodes}
-    before: Counter = Counter()
+    before: Counter[Any] = Counter()
     for desire in agent.desires:
-        key = desire, nodes[desire.target]
+        key = desire, identity(nodes[desire.target])
         yield *key, before[key]
         before[key] += 1
 

@@ -100,7 +100,7 @@ def kept(folder):
 def test_a_user_without_a_home_folder_has_no_cache_and_one_warning(program, tmp_path):
     _, warned = program(PACKAGE.parent, ["homeless"])
     message = "nothing is cached: NEORL_CACHE must name a folder, since this user has no home folder"
-    assert warned == [("program.py:13", message)]
+    assert warned == [("program.py:14", message)]
     assert kept(tmp_path) == {"program.py"}
 
 
@@ -131,5 +131,5 @@ def test_bytecode_without_source_caches_nothing_and_says_so_once(program, tmp_pa
     for path in (tmp_path / "tree").rglob("*.py"):
         path.unlink()
     printed, warned = program("tree", **options)
-    assert printed == "None" and [where for where, _ in warned] == ["program.py:13"]
+    assert printed == "None" and [where for where, _ in warned] == ["program.py:14"]
     assert "imported from bytecode without its source" in warned[0][1] and not kept(tmp_path / "cache")
