@@ -251,6 +251,7 @@ class Explorer {
     const until = run.due ? Math.max(0, run.due.step - run.frame.step) : steps;
     const frame = await tank.ask({ type: "advance", steps: Math.min(steps, until), budget });
     await this.second.keepStep(frame);
+    if (run !== tank.run) return; // replaced while the second tank was asked
     run.advancing = false;
     tank.take(frame);
     this.count(frame.steps);

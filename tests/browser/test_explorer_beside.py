@@ -32,6 +32,7 @@ def page(open_shared_page, tmp_path_factory):
 def visit(page, address):
     page.evaluate("""address => {
         history.replaceState(null, "", location.pathname);  // so that the same address counts once more
+        document.querySelector(".neorl-explorer").dataset.step = "";  // that of the run before
         location.hash = address;
     }""", address)
 
@@ -177,6 +178,23 @@ def test_a_comparison_ends_without_stopping_the_first_run(page):
     wait_for(page, step="12000", state="ended")
     assert float(page.locator(".neorl-explorer").get_attribute("data-score")) == newborn(PLACES).advance(12_000)
     page.wait_for_function("!location.hash.includes('beside')")
+
+
+def test_a_link_that_is_followed_while_the_second_tank_is_asked_leads_to_its_moment(page):
+    visit(page, "#explorer_agent-places_beside-things_minute-0")
+    wait_for(page, step="0", secondStep="0", state="paused")
+    page.evaluate("""() => {  // the second tank, which is to catch up whatever it takes, is never asked
+        window.post = Worker.prototype.postMessage;
+        Worker.prototype.postMessage = function (message, ...more) {
+            if (message.budget === Infinity) window.isHeld = true;
+            else window.post.call(this, message, ...more);
+        };
+    }""")
+    press(page, "play")
+    page.wait_for_function("window.isHeld")
+    visit(page, "#explorer_agent-places_minute-0p1")
+    wait_for(page, step="300", state="paused", beside=None)
+    page.evaluate("() => { Worker.prototype.postMessage = window.post; }")
 
 
 def test_a_choice_made_while_the_veteran_learns_begins_at_once(page):

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from explorer_page import press, unfold, wait, write_page
+from explorer_page import press, wait, write_page
 from playwright.sync_api import expect
 
 from neorl import Explorer
@@ -164,9 +164,11 @@ FAULTS = [
 
 @pytest.mark.parametrize("what, fault", FAULTS)
 def test_a_fault_is_reported_and_reset_recovers_from_it(explorer, what, fault):
-    unfold(explorer)  # which may draw the tank again
-    explorer.evaluate(f"() => {{ window.sound = {what}; {what} = {fault}; }}")
-    press(explorer, "step")
+    explorer.evaluate(f"""() => {{  // at once, or the tank may be drawn in between
+        window.sound = {what};
+        {what} = {fault};
+        document.querySelector('[data-action="step"]').click();
+    }}""")
     alert = explorer.locator("[role=alert]")
     expect(alert).to_have_text("The simulation has stopped. Reset restarts it.")
     explorer.evaluate(f"() => {{ {what} = window.sound; }}")

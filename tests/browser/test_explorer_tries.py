@@ -244,9 +244,12 @@ def test_a_slider_of_the_previous_agent_does_no_harm_and_the_same_agent_starts_a
     }""")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.condition === 'places'")
     expect(page.locator("[role=alert]")).to_be_hidden()
-    page.evaluate("() => { window.sound = CanvasRenderingContext2D.prototype.clearRect;"
-                  " CanvasRenderingContext2D.prototype.clearRect = () => undefined.there; }")
-    press(page, "step")
+    wait(page, "paused")
+    page.evaluate("""() => {  // at once, or the first frame may be drawn in between
+        window.sound = CanvasRenderingContext2D.prototype.clearRect;
+        CanvasRenderingContext2D.prototype.clearRect = () => undefined.there;
+        document.querySelector('[data-action="step"]').click();
+    }""")
     wait(page, "failed")
     page.evaluate("() => { CanvasRenderingContext2D.prototype.clearRect = window.sound; }")
     page.locator('[name="preset"]').dispatch_event("input")
@@ -306,6 +309,7 @@ def test_a_link_within_the_page_brings_the_tank_into_view_or_the_reason_of_its_r
             + "<a href='#explorer_start-corner'>The way to a corner</a>");
     }""")
     for _ in range(2):  # also when the address is that of the link already
+        page.evaluate("document.querySelector('.neorl-explorer').dataset.goal = ''")  # that of the click before
         page.get_by_role("link").click()
         page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '0'")
         page.wait_for_function("""() => {
