@@ -109,7 +109,7 @@ RIGHT = {"seed": [0, 10**9], "runs": [10**9], "steps": [10**9], "decisions": [10
          "learning_rate": [0.5], "exploration": [0, 0.5], "keep": ["x"], "layers": [[1]], "counts": [[1]],
          "stays": [[1]]}
 RIGHT_ON = {("paper_c", "resolutions"): [[], [1]], **{(page, "resolutions"): [[1]] for page in (
-    "beyond_agents", "chapter_4", "paper_a", "paper_b", "your_research")}}
+    "beyond_agents", "chapter_4", "paper_a", "paper_b", "recordings", "your_research")}}
 
 
 @pytest.mark.parametrize("page", NOTEBOOKS)

@@ -41,7 +41,8 @@ OTHERS = {
     "paper_a": {"resolutions": [4, 12], "layers": [2, 3, 5, 7], "n_creeps": 20},
     "paper_b": {"resolutions": [3, 4], "n_creeps": 8, "place_gain": 100.0},
     "paper_c": {"n_creeps": 8, "recursion": 2.5, "resolutions": [3, 4]},
-    "performance": {"steps": 3_000}, "your_research": {"resolutions": [2, 20]}}
+    "performance": {"steps": 3_000}, "recordings": {"resolutions": [11, 23]},
+    "your_research": {"resolutions": [2, 20]}}
 WAYS = "defaults", "twice", "below", "least", "others", "papermill", "suggested", "refused"
 MEASURED = {  # the cells that show measured times
     "agent_in_one_file": {"comparison"}, "alternatives": {"costs-table"}, "beyond_agents": {"e65b2d27"},
