@@ -165,6 +165,17 @@ TABLE = {
     "neorl.agents.learner.Learner.observe": entry(method(Learner.observe, acted), scene=SCENES),
     "neorl.agents.learner.Learner.observe, fields": entry(
         scene_then(Learner.observe, acted), **{name: [each] for name, each in SCENE._asdict().items()}, also="scene"),
+    "neorl.agents.learner.Learner.watch": entry(
+        method(Learner.watch, new_learner), positions=[np.full((5, 2), 0.5), [(0.1, 0.2), (0.3, 0.2), (0.3, 0.9)]],
+        actions=[None], ends=[(), [1]], rewards=[None], progress=[False]),
+    "neorl.agents.learner.Learner.watch, actions": entry(
+        method(Learner.watch, new_learner), positions=[np.full((3, 2), 0.5)], progress=[False],
+        actions=[[0, 4], np.ones((2, 2))], rewards=[None, [1.0, 2]], ends=[[True, False], [2]]),
+    "neorl.agents.learner.Learner.output": entry(
+        method(Learner.output, new_learner), name=["PC"], scene=SCENES, normalised=[True, False]),
+    "neorl.agents.individual.Individual.want": entry(
+        lambda source, valence: new_learner().want(source, valence=valence), source=["green", (0.2, 0.3)],
+        valence=reals, also=("sources", "coordinates")),
     "neorl.agents.individual.Individual.q": entry(method(Individual.q, new_learner), index=[0]),
     "neorl.agents.individual.Individual.output": entry(method(Individual.output, new_learner), name=["PC"]),
     "neorl.agents.individual.Individual.change": entry(method(Individual.change, acted), agent=agents),

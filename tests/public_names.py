@@ -14,7 +14,7 @@ MODULES = (neorl, agent, annotations, forager, coordinates, individual, learner,
            vector)
 # Classes that only kernels or the package itself instantiate; kernels refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
-    "agents.individual.Individual", "agents.individual.Output", "agents.learner.Here", "agents.learner.Offer",
+    "agents.individual.Individual", "agents.individual.Output", "agents.learner.Here", "agents.learner.Imagining",
     "core.scene.Scene", "kernels.annotations.Record", "kernels.annotations.Signature", "kernels.kernel.Kernel",
     "gym.playing.Played", "experiments.result.Result", "experiments.run.Trajectory", "worlds.arena.ArenaRules",
     "worlds.arena.ArenaState", "worlds.waterworld.Rules",
@@ -25,7 +25,8 @@ MADE_INSIDE = {f"neorl.{name}" for name in (
 # called often or at import.
 FOR_AUTHORS = {f"neorl.{name}" for name in (
     *(f"kernels.annotations.{name}" for name in (
-        "array", "arrays", "fields", "function", "is_tuple", "length", "mapped", "new_tuple", "tabled")),
+        "array", "arrays", "fields", "function", "is_again", "is_tuple", "length", "mapped", "marks", "new_tuple",
+        "tabled")),
     *(f"kernels.kernel.{name}" for name in (
         "Kernel.compiled_for", "check_kernel", "full_name", "function_of", "inlined", "inlined_kernel")),
     *(f"core.coordinates.{name}" for name in (
@@ -33,7 +34,7 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
     "core.modality.Modality.check_axes",
     "gym.vector.VectorWorldEnv.advance",
     "agents.papers.paper_agent", "kernels.execution.execute", "kernels.kernel.jit_is_off",
-    "core.scene.checked_scene", "worlds.world.check_arrays",
+    "core.scene.checked_scene", "worlds.world.check_arrays", "worlds.world.check_kind",
     "worlds.walls.checked", "worlds.world.check_definition", "worlds.world.check_outcome",
     "worlds.world.check_rules", "worlds.world.checked_rules")}
 NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian", "neorl.kernels.kernel.interpreting"}  # they take no arguments

@@ -5,6 +5,7 @@ import hashlib
 import numpy as np
 
 from neorl import Learner, Result, Run
+from neorl.agents import keeping
 from neorl.core.stream import new_stream
 from neorl.experiments import simulation
 from neorl.experiments.bins import new_bins
@@ -13,7 +14,7 @@ from neorl.kernels.annotations import arrays
 
 def numbers(values):
     """The arrays of the state of a `Learner` or `Run`, or in a named tuple, by name."""
-    return values._state() if isinstance(values, Learner | Run) else arrays(values)
+    return keeping.state_of(values._record, values._memory) if isinstance(values, Learner | Run) else arrays(values)
 
 
 def assert_equal(one, other):

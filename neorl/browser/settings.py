@@ -84,10 +84,10 @@ def described(agent, world, preset, settings):
 def check(name, agent, world, preset, settings):
     """Raise ValueError if a setting is none of a preset's, or if the settings describe no agent in its world."""
     value, label = settings[name], preset["label"]
-    if name == "modality" and value and not (preset["modality"] and agent.nodes[0].goals == "cells"):
-        raise checks.error("modality", f"'' for {label}, whose nodes keep their own", value)
-    if name == "modality":
-        checks.one_of(name, value, ["", *(each.name for each in MODALITIES if each.takes_places)])
+    modality = settings["modality"]  # also when another setting is set together with it, and checked first
+    if modality and not (preset["modality"] and agent.nodes[0].goals == "cells"):
+        raise checks.error("modality", f"'' for {label}, whose nodes keep their own", modality)
+    checks.one_of("modality", modality, ["", *(each.name for each in MODALITIES if each.takes_places)])
     if name == "object_state":
         checks.one_of(name, value, preset["states"])
     if name == "n_creeps" and not isinstance(world, WaterWorld) and value is not None:

@@ -33,8 +33,9 @@ from neorl.kernels.kernel import inlined_kernel, kernel
 @kernel
 def act(agent: Record, memory: Memory, scene: Scene, functions: AgentFunctions) -> int:
     """Choose an action."""
-    agent.last_event = choose(agent, memory, scene, functions)
-    return agent.last_event
+    action = choose(agent, memory, scene, functions)
+    agent.last_event = action
+    return action
 
 
 @kernel

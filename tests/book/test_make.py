@@ -42,7 +42,8 @@ def built(finished, tmp_path):
 
 
 def change(tree):
-    small_book.write_notebook(tree, "paper_a", "print('changed')")
+    small_book.write_notebook(tree, "paper_a", small_book.REPEAT, small_book.DRAW, "print('changed')",
+                              small_book.SAVE.format("paper_a"))
 
 
 @pytest.fixture(scope="module")

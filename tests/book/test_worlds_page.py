@@ -47,10 +47,9 @@ def test_the_circle_prints_what_stands_behind_its_arrows(tmp_path):
     assert done.stdout.splitlines() == promised(code) and len(promised(code)) == code.count("print("), done.stderr
 
 
-@pytest.mark.parametrize("code", [MAZE, "\n".join(CIRCLE)])
-def test_everything_comes_from_neorl_by_one_import(code):
-    modules = re.findall(r"^(?:from|import) (\S+)", code, re.MULTILINE)
-    assert modules.count("neorl") == 1 and not any(each.startswith("neorl.") for each in modules)
+def test_a_world_takes_one_import_from_neorl_custom_beside_that_of_agents():
+    modules = re.findall(r"^(?:from|import) (neorl\S*)", MAZE, re.MULTILINE)
+    assert modules == ["neorl", "neorl.custom"]
 
 
 def test_without_the_compiler_a_breakpoint_stops_in_a_kernel(tmp_path):
@@ -69,6 +68,7 @@ def test_without_the_compiler_an_index_out_of_range_is_an_error_in_its_line(tmp_
 def test_the_examples_of_docstrings_run(tmp_path):
     examples = [doctest.DocTestParser().get_examples(function.__doc__)
                 for function in (walls.distance, walls.distance_along, Run.record, Run.advance)]
-    code = "".join(["import neorl\n", *(each.source for those in examples for each in those)])
+    imports = "import neorl\nfrom neorl.custom import Axis, Modality, walls\n"
+    code = "".join([imports, *(each.source for those in examples for each in those)])
     done = run(tmp_path, code, **WITHOUT_COMPILER)
     assert all(examples) and done.returncode == 0, done.stderr

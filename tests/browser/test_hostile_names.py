@@ -19,7 +19,7 @@ def hostile(name):
     return f"""{name}<img src="x" onerror="window.hit = '{name}'"><b>"&lt;'</b>"""
 
 
-PLACES, THINGS, BLANK = hostile("places"), hostile("things"), ""
+PLACES, THINGS = hostile("places"), hostile("things")
 FOOD, SHOCK = hostile("food"), hostile("shock")
 MAZE = Arena(places=[(FOOD, 0.8, 0.2), (SHOCK, 0.3, 0.7), ("constructor", 0.5, 0.5)], pay=[1.0, -1.0, 1.0])
 NETWORK = Agent([Node(PLACES, modality.PLACE_CELL, [3]), Node(THINGS, modality.OBJECT_VECTOR_CELL, [3]),
@@ -109,19 +109,6 @@ def test_names_of_recordings_are_shown_as_they_are(visit):
     page = visit(Replay([record(hostile("run"), Run(place_cells([3]), WaterWorld()), 10)], playing=False))
     expect(page.locator(".title")).to_have_text(hostile("run"))
     expect(page.get_by_role("img", name=f"The tank: {hostile('run')}", exact=True)).to_be_visible()
-
-
-def test_a_node_without_a_name_is_called_unnamed_and_is_not_taken_for_the_world(visit):
-    agent = Agent([Node(BLANK, modality.PLACE_CELL, [3]), Node("OVC", modality.OBJECT_VECTOR_CELL, [3])],
-                  [Desire("green", BLANK, 1.0), Desire("red", "OVC", -1.0), Desire(BLANK, "OVC", 1.0)])
-    page = visit(Explorer(agent, playing=False, speed=0.0))
-    explorer_of(page)
-    expect(page.locator('label:has([name="gain-0"]) span')).to_have_text("Gain of unnamed")
-    expect(page.locator('[name="map"] option').first).to_have_text("unnamed, 3 × 3")
-    drop_by_keyboard(page)
-    press(page, "play")
-    wait(page, "ended")
-    expect(page.locator(".key li", has_text="one node places an element for another")).to_be_visible()
 
 
 # Where our scripts read markup, and what: constants of their own source.

@@ -23,6 +23,7 @@ for cell in json.loads(sys.argv[1]):
 SETUP = """
 import json, sys
 from neorl import *
+from neorl.custom import *
 from neorl.experiments import store
 from neorl.core.modality import PLACE_CELL
 
