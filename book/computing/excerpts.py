@@ -6,6 +6,7 @@ from xml.etree import ElementTree
 
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
+STILL = 'class="neorl-still"'  # of `neorl.browser.figure`
 SVG = "http://www.w3.org/2000/svg"
 LETTERED = ("text_", "legend_", "matplotlib.axis_")  # parts of matplotlib's figures, by their ids
 
@@ -52,11 +53,17 @@ def small(figure):
 
 
 def save_widgets(notebook, folder):
-    """Save each named widget as a file of its own, and keep in the notebook only the state of the widgets it shows."""
+    """Save each named widget as a file of its own, and keep in the notebook only the state of the widgets it shows.
+
+    Still pictures beside widgets are left out: the book has its own, and its widgets live.
+    """
     stored = notebook.metadata.get("widgets", {}).get(WIDGET_STATE, {"state": {}})
     kept = {}
     for cell in notebook.cells:
-        name, outputs = cell.metadata.get("widget", {}).get("name"), cell.get("outputs", [])
+        outputs = [each for each in cell.get("outputs", []) if STILL not in each.get("data", {}).get("text/html", "")]
+        if "outputs" in cell:
+            cell.outputs = outputs
+        name = cell.metadata.get("widget", {}).get("name")
         views = [each.data[WIDGET_VIEW] for each in outputs if WIDGET_VIEW in each.get("data", {})]
         if name and len(views) != 1:
             raise ValueError(f"cell of widget {name} must show one widget, but shows {len(views)}")

@@ -28,6 +28,7 @@ from neorl.agents.agent import LEARNED, STATES, Agent, Desire, Node
 from neorl.agents.embodiment import choices_in, loop_of
 from neorl.agents.rules import Learning, Policy
 from neorl.browser import wasm
+from neorl.browser.figure import Figure, beginning, curve
 from neorl.browser.settings import (AVOIDED, SETTINGS, Checked, check, described, integers, reals, settings_of,
                                     stated_nodes)
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
@@ -47,7 +48,6 @@ from neorl.worlds.vessel import Vessel
 from neorl.worlds.water_maze import WaterMaze
 from neorl.worlds.waterworld import WaterWorld
 
-AnyWidget = require("anywidget", extra="wasm").AnyWidget
 traitlets = require("traitlets", extra="wasm")
 
 START_HERE = {"Foveated cells, contacts alone": forager.forager(valence_green=1.0, valence_red=-1.0),
@@ -87,7 +87,7 @@ def text_of(*names):
     return "\n".join((resources.files(__package__) / name).read_text(encoding="utf-8") for name in names)
 
 
-class Explorer(AnyWidget):
+class Explorer(Figure):
     """A neoRL agent to watch, change and play against; in JupyterLab and, from its stored state, in a static page.
 
     conditions: {name: `Result`}, the conditions of the page, in worlds of the package; their bands and runs are shown.
@@ -159,9 +159,12 @@ class Explorer(AnyWidget):
         Arguments are those of `Explorer`. All traits begin anew, but for control, which stays unless it is given.
         Raises what `Explorer` raises, and then goes on as before.
         """
+        shown = self._shown(conditions, preset, traits)
         with self._choosing(True), self.hold_sync(), self.hold_trait_notifications():
-            for name, value in self._shown(conditions, preset, traits).items():
+            for name, value in shown.items():
                 setattr(self, name, value)
+        self.send_state(shown.keys() & self.keys)  # also what was so here, since a page may have other values by now
+        self._draw_again()
 
     def set_state(self, sync_data):
         """Set what a page has set, which chooses a preset together with its settings, and sends those that differ."""
@@ -202,6 +205,13 @@ class Explorer(AnyWidget):
         return {"_agents": agents, "_presets": presets, **defaults, "preset": preset,
                 "seed": first.seed if first else 0, **settings_of(presets[preset]), **traits}
 
+    def _sentence(self):
+        return f"An Explorer that runs {self._presets[self.preset]['label']}, in JupyterLab or a page with JavaScript."
+
+    def _drawn(self):
+        band = self._presets[self.preset]["band"]
+        return curve(band["edges"][1:], band["middle"]) if band else beginning(self.world, self.seed)
+
     @property
     def agent(self):
         """The `Agent` that the traits describe, without elements dropped in the page."""
@@ -226,7 +236,7 @@ class Explorer(AnyWidget):
         try:
             if name == "preset":
                 return checks.one_of(name, value, tuple(self._presets))
-            check(name, *self._agents[self.preset], self._presets[self.preset], self._settings() | {name: value})
+            check(*self._agents[self.preset], self._presets[self.preset], self._settings() | {name: value})
             return value
         except ValueError as error:
             raise traitlets.TraitError(str(error)) from None

@@ -81,29 +81,27 @@ def described(agent, world, preset, settings):
             replace(world, n_creeps=settings["n_creeps"]) if isinstance(world, WaterWorld) else world)
 
 
-def check(name, agent, world, preset, settings):
-    """Raise ValueError if a setting is none of a preset's, or if the settings describe no agent in its world."""
-    value, label = settings[name], preset["label"]
-    modality = settings["modality"]  # also when another setting is set together with it, and checked first
+def check(agent, world, preset, settings):
+    """Raise ValueError if a setting is none that a preset can have, or if they describe no agent in its world."""
+    label, modality, red = preset["label"], settings["modality"], settings["valence_red"]
     if modality and not (preset["modality"] and agent.nodes[0].goals == "cells"):
         raise checks.error("modality", f"'' for {label}, whose nodes keep their own", modality)
     checks.one_of("modality", modality, ["", *(each.name for each in MODALITIES if each.takes_places)])
-    if name == "object_state":
-        checks.one_of(name, value, preset["states"])
-    if name == "n_creeps" and not isinstance(world, WaterWorld) and value is not None:
-        raise checks.error("n_creeps", "None outside WaterWorld", value)
-    if name == "recursion" and preset["recursion"] is None and value is not None:
-        raise checks.error("recursion", f"None for {label}, which passes no desire to its own node", value,
-                           "choose an agent that does, such as 'Network D'")
-    if name == "valence_red" and not preset["red"] and value != preset["valence_red"]:
-        raise checks.error("valence_red", f"{preset['valence_red']:g} for {label}, for which nothing is to be avoided",
-                           value)
-    if name == "memory" and value and not preset["can_remember"]:
-        raise checks.error("memory", "0 for an agent that learns at every step", value)
-    if len(settings["gains"]) != len(agent.nodes):
-        raise checks.error("gains", f"a number for each of the {len(agent.nodes)} nodes", settings["gains"])
-    if preset["recursion"] is not None:
-        checks.real("recursion", settings["recursion"])
+    checks.one_of("object_state", settings["object_state"], preset["states"])
     if isinstance(world, WaterWorld):
         checks.integer("n_creeps", settings["n_creeps"], at_least=1, at_most=20)
+    elif settings["n_creeps"] is not None:
+        raise checks.error("n_creeps", "None outside WaterWorld", settings["n_creeps"])
+    if preset["recursion"] is not None:
+        checks.real("recursion", settings["recursion"])
+    elif settings["recursion"] is not None:
+        raise checks.error("recursion", f"None for {label}, which passes no desire to its own node",
+                           settings["recursion"], "choose an agent that does, such as 'Network D'")
+    if not preset["red"] and red != preset["valence_red"]:
+        raise checks.error("valence_red", f"{preset['valence_red']:g} for {label}, for which nothing is to be avoided",
+                           red)
+    if settings["memory"] and not preset["can_remember"]:
+        raise checks.error("memory", "0 for an agent that learns at every step", settings["memory"])
+    if len(settings["gains"]) != len(agent.nodes):
+        raise checks.error("gains", f"a number for each of the {len(agent.nodes)} nodes", settings["gains"])
     choices_in(*described(agent, world, preset, settings))

@@ -284,4 +284,4 @@ def test_the_rest_of_the_package_does_without_the_widget():
     without = ("import sys; sys.modules.update(dict.fromkeys(['anywidget', 'ipywidgets', 'traitlets', 'IPython']"
                ")); import neorl; neorl.simulate; neorl.Explorer")
     refused = subprocess.run([sys.executable, "-c", without], capture_output=True, text=True)
-    assert "traitlets must be installed for this, but is not; pip install 'neorl-companion[wasm]'" in refused.stderr
+    assert "anywidget must be installed for this, but is not; pip install 'neorl-companion[wasm]'" in refused.stderr

@@ -242,20 +242,23 @@ def test_python_follows_the_switch_for_learning_and_the_switch_python(page):
     expect(switch).not_to_be_checked()
 
 
-def test_python_shows_results_where_the_reader_has_chosen_another_agent_meanwhile(page):
+def test_python_shows_results_in_place_of_what_the_reader_has_chosen_while_it_was_busy(page, tmp_path):
     explorer, name = explorer_of(page), "PC N3, OVC N3"
-    menu = explorer.locator("[name=preset]")
+    menu, begin = explorer.locator("[name=preset]"), tmp_path / "begin"
     page.evaluate("""code => {
         jupyterapp.shell.currentWidget.sessionContext.session.kernel.requestExecute({ code });
-    }""", "import time; explorer = _; time.sleep(1); explorer.show(neorl.simulate(neorl.network_d([3]), "
-          "neorl.WaterWorld(), steps=100, runs=2, progress=False))")
+    }""", f"""import os, time
+explorer, result = _, neorl.simulate(neorl.network_d([3]), neorl.WaterWorld(), steps=100, runs=2, progress=False)
+while not os.path.exists({str(begin)!r}):
+    time.sleep(0.01)
+explorer.show(result, speed=0)""")
     menu.select_option("Place cells")
-    expect(menu.locator("option", has_text=name)).to_have_count(1)
-    assert in_the_kernel(page, "print(explorer.preset, explorer.gains)") == "Place cells [1.0]"
-    expect(menu).to_have_value("Place cells")
-    menu.select_option(name)
+    expect(explorer).to_have_attribute("data-condition", "")
+    begin.touch()
     expect(explorer.locator(".legend")).to_contain_text("2 runs of")
-    assert in_the_kernel(page, "print(explorer.preset, explorer.gains)") == f"{name} [1.0, 1.0]"
+    assert in_the_kernel(page, "print(explorer.preset, explorer.resolutions)") == f"{name} [3]"
+    expect(explorer).to_have_attribute("data-step", "100")
+    assert [menu.input_value(), explorer.get_attribute("data-condition")] == [name, name]
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=() if name in TRIED else pytest.mark.pages)
@@ -266,7 +269,8 @@ def test_the_living_figures_of_a_page_that_has_run_are_there_and_answer(page, na
     page.wait_for_function(HAS_RUN)
     assert page.evaluate(FAILED) == []
     for cell in LIVING[name]:
-        figure = page.locator(CURRENT).locator(f".jp-Cell:nth-child({page.evaluate(PLACE, cell)}) .neorl-explorer")
+        output = page.locator(CURRENT).locator(f".jp-Cell:nth-child({page.evaluate(PLACE, cell)})")
+        figure = output.locator(".neorl-explorer")
         figure.scroll_into_view_if_needed()
         control, act, part, answer = next(each for each in ANSWERS if figure.locator(each[0]).count())
         if control.startswith(".only"):
@@ -275,5 +279,7 @@ def test_the_living_figures_of_a_page_that_has_run_are_there_and_answer(page, na
             expect(figure).to_have_attribute("data-state", re.compile("ended|whole"))
         page.wait_for_function(IS_DRAWN, arg=figure.element_handle())
         assert figure.bounding_box()["height"] > 200
+        expect(output.locator(".neorl-still")).to_have_count(1)
+        expect(output.locator(".neorl-still")).to_be_hidden()
         act(figure.locator(control).first)
         expect(figure.locator(part)).to_contain_text(answer)

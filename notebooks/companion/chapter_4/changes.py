@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from neorl import NresMap
-from neorl.browser.explorer import AnyWidget, text_of, traitlets
+from neorl.browser.explorer import text_of, traitlets
+from neorl.browser.figure import Figure, discs
 
 
 def changes_of(run, steps):
@@ -26,7 +27,7 @@ def changes_of(run, steps):
     return made
 
 
-class Changes(AnyWidget):
+class Changes(Figure):
     """The changes of cell of a run, as `changes_of` has them; the agent learns by shares of a stay, without memory."""
 
     _esm = text_of("elements.js", "drawing.js", Path(__file__).with_name("changes.js"))
@@ -37,3 +38,13 @@ class Changes(AnyWidget):
         ((side,),), rule = [node.resolutions for node in run.agent.nodes], run.agent.learning
         super().__init__(_run={"changes": changes_of(run, steps), "side": side, "rate": rule.learning_rate,
                                "discount": rule.discount})
+
+    def _sentence(self):
+        return (f"The {len(self._run['changes'])} changes of cell of a run, on a board of {self._run['side']} × "
+                f"{self._run['side']} cells, from each of which the agent learns.")
+
+    def _drawn(self):
+        side = self._run["side"]
+        cells = {cell for change in self._run["changes"] for cell in change[:2]}
+        return discs([((cell % side + 0.5) / side, (cell // side + 0.5) / side) for cell in cells],
+                     ["agent"] * len(cells), 0.2 / side)

@@ -3,12 +3,13 @@
 from pathlib import Path
 
 from neorl.browser import wasm
-from neorl.browser.explorer import AnyWidget, Explorer, parameters_in_page, text_of, traitlets, world_in_page
+from neorl.browser.explorer import Explorer, parameters_in_page, text_of, traitlets, world_in_page
+from neorl.browser.figure import Figure, beginning
 
 SCRIPTS = ("elements.js", "simulator.js", "drawing.js", "movers.js", "curve.js")
 
 
-class Turn(AnyWidget):
+class Turn(Figure):
     """An agent that avoids red creeps for a while and then wants them.
 
     on, off: two `neorl.Condition` in WaterWorld with one change each, the same but for learning after it.
@@ -24,6 +25,10 @@ class Turn(AnyWidget):
     def __init__(self, on, off):
         super().__init__(_wasm={"plane": wasm.modules()["plane"]}, _layout={"plane": wasm.layout("plane")},
                          _runs={"on": _run(on), "off": _run(off)})
+        self._drawn = lambda: beginning(on.world, on.seed)
+
+    def _sentence(self):
+        return "An agent that avoids red creeps for a while and then wants them, with learning on or off from there."
 
 
 def _run(condition):

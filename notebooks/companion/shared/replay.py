@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from neorl.browser.explorer import AnyWidget, text_of, traitlets
+from neorl.browser.explorer import text_of, traitlets
+from neorl.browser.figure import Figure, discs
 from neorl.common import checks
 from neorl.experiments.bins import new_bins
 from neorl.experiments.run import Run
@@ -59,7 +60,7 @@ def record(name: str, run: Run, steps: int) -> Recording:
                      creeps.astype(np.float32), green, hits)
 
 
-class Replay(AnyWidget):
+class Replay(Figure):
     """Recorded runs side by side.
 
     recordings: one or more `Recording`, all of the same length and steps per second.
@@ -84,6 +85,15 @@ class Replay(AnyWidget):
                              f"{[len(each.agent) - 1 for each in recordings]} steps")
         playing, speed = checks.flag("playing", playing), checks.integer("speed", speed, at_least=1)
         super().__init__(_recordings=[_thinned(each, speed) for each in recordings], playing=playing, speed=speed)
+
+    def _sentence(self):
+        names = " and ".join(each["name"] for each in self._recordings)
+        return f"A replay of {self._recordings[0]['seconds'][-1]:g} seconds of {names}."
+
+    def _drawn(self):
+        first = self._recordings[0]
+        kinds = ["agent", *("green" if green else "red" for green in first["green"][-1])]
+        return discs(np.array([first["agent"][-1], *first["creeps"][-1]]) / FINENESS, kinds, first["radius"])
 
 
 def _thinned(recording, speed):
