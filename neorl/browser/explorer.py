@@ -167,9 +167,18 @@ class Explorer(Figure):
         self._draw_again()
 
     def set_state(self, sync_data):
-        """Set what a page has set, which chooses a preset together with its settings, and sends those that differ."""
-        with self._choosing(not set(SETTINGS).isdisjoint(sync_data)):
-            super().set_state(sync_data)
+        """Set what a page has set, which chooses a preset together with its settings, and sends those that differ.
+
+        Where other conditions have been shown meanwhile, what it has not sent may fit their preset alone.
+        """
+        try:
+            with self._choosing(not set(SETTINGS).isdisjoint(sync_data)):
+                super().set_state(sync_data)
+        except traitlets.TraitError:
+            if sync_data.get("preset") not in self._presets:
+                raise
+            with self._choosing(True):
+                super().set_state(settings_of(self._presets[sync_data["preset"]]) | sync_data)
 
     @contextlib.contextmanager
     def _choosing(self, whole):

@@ -16,7 +16,7 @@ AVOIDED = ("red", "obstacle", "vessel")  # the kinds whose valence has a control
 
 
 class Checked(traitlets.TraitType):
-    """A trait whose value is what a function of `neorl.common.checks` returns, check(name, value, **allowed).
+    """A trait whose value is what a function of `neorl.common.checks` returns, ``check(name, value, **allowed)``.
 
     or_none: whether it may be None, which is then checked against the preset, as any other value is.
     """
