@@ -133,6 +133,29 @@ def test_agents_that_learn_no_more_from_half_time_on_are_those_that_are_revalued
     assert frozen.learning.learning_rate == 0 and found["revalued"].agent == found["frozen"].agent
 
 
+def test_agents_that_learned_with_another_desire_then_desire_the_same_without_learning():
+    found = conditions(Reading(), 3_000, 4, groups=["wanted"])
+    valences = {(was, then): [{desire.source: desire.valence for desire in agent.desires}
+                              for agent in (condition.agent, condition.changes[0][1])]
+                for (_, was, then), condition in ((key, each) for key, each in found.items() if key[0] == "past")}
+    assert valences["none", "both"] == [{"green": 0, "red": 0}, {"green": 1, "red": 1}]
+    assert valences["green", "papers"] == [{"green": 1, "red": 0}, {"green": 1, "red": -1}] and len(valences) == 5
+    assert {condition.changes[0][1].learning.learning_rate > 0: condition.changes[0][1].desires
+            for condition in (found["removed"], found["removed, frozen"])}.keys() == {True, False}
+    assert {condition.changes[0][0] for condition in found.values()} == {1_500}
+
+
+def test_networks_stand_beside_their_nodes_alone_and_explore_a_little():
+    found = conditions(Reading(), 3_000, 4, groups=["networks", "exploring"])
+    nodes = {name: found["node", name].agent for name in ("places", "objects", "one layer")}
+    assert [node.name for name in nodes for node in nodes[name].nodes] == ["PC", "OVC", "PC", "OVC"]
+    assert all(node.resolutions == found["network", "C"].agent.nodes[0].resolutions
+               for agent in nodes.values() for node in agent.nodes)
+    for name, agent in {**nodes, "C": found["network", "C"].agent}.items():
+        assert replace(found["exploring", name].agent, policy=agent.policy) == agent
+        assert found["exploring", name].agent.policy.exploration == 0.02
+
+
 def test_single_maps_also_run_eight_times_as_long():
     found = conditions(Reading(), 600_000, 4, groups=["single", "long"])
     assert all(found["long", n] == replace(found["single", n], steps=1_200_000) for n in (10, 90))

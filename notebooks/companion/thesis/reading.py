@@ -24,16 +24,24 @@ LONGER = 16  # times as long are the runs that measure the time to the final lev
 BLOCKS = 8  # times as long as paper A's are the runs that show where single maps end
 CONTROLS = 8  # times as many runs of Brownian motion, which most readings share
 
+NODES = ("places", "objects", "one layer")  # what network C is made of, each alone: its two nodes, and both side by side
+A_LITTLE = 0.02  # share of actions at random, of networks that may stand at a wall for ever
+PASTS = ("none", "green", "papers")  # what agents desired while they learned: nothing, green, or green and no red
+
 # The conditions of each group.
 GROUPS = {
     "layers": (("brownian", 8), *(("layer", n) for n in LAYERS), "layers"),
     "single": (("brownian", 8), *(("single", n) for n in SINGLE)),
     "modal": (("brownian", 3), ("place", "all"), ("objects", "all"), "both"),
-    "networks": (("brownian", 3), *(("network", name) for name in "ABCD")),
+    "networks": (("brownian", 3), *(("network", name) for name in "ABCD"), *(("node", name) for name in NODES)),
+    "exploring": tuple(("exploring", name) for name in ("C", "D", *NODES)),
     "revaluing": (("brownian", 3), "revalued", "frozen", "wanting"),
     "resolutions": (("brownian", 3), *((modality, n) for modality in ("place", "objects") for n in PRIMES)),
     "pace": (("brownian", 3), ("pace", "place"), ("pace", "both")),
     "long": tuple(("long", n) for n in SINGLE),
+    "grown": tuple((modality, f"first {k}") for modality in ("place", "objects") for k in range(2, len(PRIMES))),
+    "wanted": ("revalued", "frozen", "removed", "removed, frozen",
+               *(("past", was, then) for was in PASTS for then in ("papers", "both") if (was, then) != ("papers", "both"))),
 }
 
 
@@ -148,7 +156,9 @@ def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
     same simulated time, and those of paper A have the same steps. For B4 runs are 16 times as long and half as many,
     but at least two, unless steps reach paper B's length. Brownian motion with 8 creeps always runs as long as in paper
     A, which reports no reset in that time. "revalued" wants red creeps too from half-time on, "frozen" does and learns
-    no more from there, and "wanting" wants them from the start.
+    no more from there, and "wanting" wants them from the start; "removed" no longer fears them. ("past", was, then)
+    desires one of `PASTS` while it learns for half of the run, and then, without learning, what the papers do or both
+    colours; ("past", "papers", "both") is "frozen". ("exploring", name) takes `A_LITTLE` of its actions at random.
     seed: integer ≥ 0. groups: names in `GROUPS`, which has the keys of each.
     Raises ValueError for anything else.
     """
@@ -185,12 +195,34 @@ def _all_conditions(reading, steps, runs, seed):
     made |= {("pace", name): condition(agent, "B", **longer) for name, agent in
              (("place", made["place", "all"].agent), ("both", both))}
     made |= {("network", name): condition(agent, "C") for name, agent in networks(reading).items()}
-    wanting = replace(both, desires=[replace(desire, valence=1.0) for desire in both.desires])
-    half = made["both"].steps // 2
-    frozen = replace(wanting, learning=replace(wanting.learning, learning_rate=0.0))
-    made["revalued"], made["frozen"] = (replace(made["both"], changes=((half, then),)) for then in (wanting, frozen))
-    made["wanting"] = replace(made["both"], agent=wanting)
-    return made
+    made |= {("node", name): condition(agent, "C") for name, agent in nodes(reading).items()}
+    exploring = reading.varied(exploration=A_LITTLE)
+    made |= {("exploring", name): condition(agent, "C") for name, agent in
+             {**networks(exploring), **nodes(exploring)}.items() if name not in "AB"}
+    for k in range(2, len(PRIMES)):
+        made["place", f"first {k}"] = condition(papers.place_cells(PRIMES[:k], **each), "B")
+        made["objects", f"first {k}"] = condition(papers.object_vector_cells(PRIMES[:k], **each), "B")
+    return made | _changing(made["both"])
+
+
+def _changing(condition):
+    """The conditions in which agents of both modalities come to desire something else at half-time."""
+    def desiring(green, red, learning=True):
+        desires = [replace(desire, valence={"green": green, "red": red}[desire.source]) for desire in agent.desires]
+        rule = agent.learning if learning else replace(agent.learning, learning_rate=0.0)
+        return replace(agent, desires=desires, learning=rule)
+
+    def turned(was, then):
+        return replace(condition, agent=was, changes=((condition.steps // 2, then),))
+
+    agent, both = condition.agent, (1.0, 1.0)
+    pasts = {"none": desiring(0.0, 0.0), "green": desiring(1.0, 0.0), "papers": agent}
+    thens = {"papers": desiring(1.0, -1.0, learning=False), "both": desiring(*both, learning=False)}
+    made = {("past", was, then): turned(pasts[was], thens[then]) for was in pasts for then in thens}
+    return made | {
+        "revalued": turned(agent, desiring(*both)), "frozen": made.pop(("past", "papers", "both")),
+        "wanting": replace(condition, agent=desiring(*both)), "removed": turned(agent, desiring(1.0, 0.0)),
+        "removed, frozen": turned(agent, desiring(1.0, 0.0, learning=False))}
 
 
 def networks(reading: Reading) -> dict[str, Agent]:
@@ -201,6 +233,17 @@ def networks(reading: Reading) -> dict[str, Agent]:
     adding = {"place_gain": reading.network_gain, **shared}
     return {"A": papers.network_a(**shared), "B": papers.network_b(**shared), "C": papers.network_c(**adding),
             "D": papers.network_d(recursion=reading.recursion, **adding)}
+
+
+def nodes(reading: Reading) -> dict[str, Agent]:
+    """The simplest agents beside networks C and D, which pass no desires: {name in `NODES`: `Agent`}.
+
+    Raises ValueError unless it is a `Reading`.
+    """
+    checks.instance("reading", reading, Reading)
+    chosen = {"resolutions": reading.network_resolutions, **reading.agents}
+    return {"places": papers.place_cells(**chosen), "objects": papers.object_vector_cells(**chosen),
+            "one layer": papers.multimodal(place_gain=reading.network_gain, **chosen)}
 
 
 def judge(results):
