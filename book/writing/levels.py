@@ -9,7 +9,7 @@ import scipy
 from companion.page import report
 from companion.page.wording import number
 from companion.study import sensitivity
-from companion.thesis.reading import NAMES
+from companion.thesis.reading import NAMES, NODES
 from companion.thesis.statements import STATEMENTS
 
 PLACES = "B3 place"  # the number of the table of readings
@@ -19,8 +19,8 @@ ROWS = {  # {agents: (claim, its number; "" for the one that it is about)}
     "Paper A: Brownian motion": ("A7", "final reward per second, Brownian motion"),
     "Paper B: places and objects": ("B3", ""),
     "Paper B: places alone": ("B3", "place cells"),
-    "Paper C: network A": ("C1", "A"),
-    "Paper C: network C": ("C1", "C")}
+    **{f"Paper C: {name}": ("C3", f"final reward per second, {of_claim}") for name, of_claim in {
+        **{f"network {each}": each for each in "ACD"}, **{each: each for each in NODES.values()}}.items()}}
 
 
 def section(record, found):

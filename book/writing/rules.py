@@ -1,8 +1,8 @@
 """The page of rules: what the last change of rules moved, and when each rule was fixed and changed, with its code.
 
-`rules.toml` has the history, with a digest of each rule as it stands, so that none changes without an entry, and
-`rules_before.json` has the verdicts of the rules before the last change, on the runs that were recorded by then and on
-the present ones. So one sees what the rules moved, and what the runs did.
+`rules.toml` has the history, with a digest of each rule as it stands, so that none changes without an entry,
+`rules_before.json` the verdicts of the rules before the last change, on the runs that were recorded by then and on the
+present ones, and `comparisons.toml` what claims leave out. So one sees what the rules moved, and what the runs did.
 """
 
 import hashlib
@@ -19,7 +19,7 @@ from companion.thesis.reading import NAMES
 from companion.thesis.statements import STATEMENTS
 
 BOOK = Path(__file__).parents[1]
-HISTORY, BEFORE = BOOK / "rules.toml", BOOK / "rules_before.json"
+HISTORY, BEFORE, LEFT_OUT = BOOK / "rules.toml", BOOK / "rules_before.json", BOOK / "comparisons.toml"
 
 
 def page(record):
@@ -28,7 +28,7 @@ def page(record):
     record: of all claims, see `report.load`.
     """
     history = tomllib.loads(HISTORY.read_text(encoding="utf-8"))
-    return "\n\n".join([moved(record, history["changes"]), "## The rules", *(
+    return "\n\n".join([moved(record, history["changes"]), left_out(), "## The rules", *(
         _fold(name, rule, history["commits"]) for name, rule in history["rules"].items())]) + "\n"
 
 
@@ -45,6 +45,19 @@ def moved(record, changes):
     return "\n\n".join(["## The last change", "What claims asked before it, and what they ask now:", "\n".join(lines),
                         "Verdicts with their main numbers, by which one sees what runs and what rules have moved:",
                         table(head, rows)])
+
+
+def left_out():
+    """The simplest comparable agent of each claim that compares agents, and the sentences that no rule judges."""
+    listed = tomllib.loads(LEFT_OUT.read_text(encoding="utf-8"))
+    agents = [[f"**{name}** {STATEMENTS[name].short}", agent, decided]
+              for name, (agent, decided) in listed["comparable"].items()]
+    sentences = [[f"“{each['quotation']}” ({each['place']})", each["why"]] for each in listed["untested"]]
+    return "\n\n".join([
+        "## Beside whom agents stand", "For each claim that compares agents, the simplest agent that its sentence "
+        "makes comparable, and whether a rule asks for it:",
+        table(["Claim", "Simplest comparable agent", "Decided"], agents),
+        "## Sentences without a rule", table(["Sentence", "Why no rule judges it"], sentences)])
 
 
 def _number(found):

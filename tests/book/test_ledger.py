@@ -68,7 +68,7 @@ def test_the_page_has_every_claim_once_and_those_not_about_agents_under_headings
     assert {name[0] for name in AGENTS} == set(ledger.CHAPTERS)
     sections = {part.split("\n")[0]: re.findall(r"<b>(\w+)</b>", part) for part in page.split("\n### ")[1:]}
     assert (sections["Counted apart: decided by proof"], sections["Counted apart: decided by counting"]) == (
-        ["B5"], ["T3", "T4"])
+        ["B5"], ["T3", "T4", "T8"])
 
 
 def test_the_figure_at_the_head_has_every_claim_once_in_blocks():
@@ -138,12 +138,21 @@ def test_every_rule_says_which_commits_fixed_and_changed_it_and_shows_its_code()
 
 
 def test_what_the_last_change_of_rules_and_the_runs_moved_is_listed_for_both_readings():
-    rows = [row for row in rules.page(RECORD).splitlines() if row.startswith("| ")]
+    moved, *_ = rules.page(RECORD).split("\n\n## Beside whom")
+    rows = [row for row in moved.splitlines() if row.startswith("| ")]
     assert len(rows) >= 40 and all(row.count(" | ") == 3 for row in rows)
     (row,) = [row for row in rows if row.startswith("| **C2**, calibrated |")]
     assert row.endswith("reproduced, 0.10 [0.09, 0.11] |")
-    assert "- **C2** asked: lead above 0. It asks: lead at least 0.01 a second.\n" in rules.page(RECORD)
+    assert "- **C6** asked: no statement. It asks: D above the best of its nodes alone" in moved
     assert {*tomllib.loads(rules.HISTORY.read_text(encoding="utf-8"))["changes"]} <= {*STATEMENTS}
+
+
+def test_each_claim_that_compares_agents_has_the_simplest_agent_beside_it():
+    listed = tomllib.loads(rules.LEFT_OUT.read_text(encoding="utf-8"))
+    assert {*listed["comparable"]} == {name for name in AGENTS if name != "A1"}  # which is about Brownian motion alone
+    assert all(decided.startswith(("asked", "shown", "not run")) for _, decided in listed["comparable"].values())
+    found = rules.page(RECORD)
+    assert all(each["quotation"] in found and each["why"] in found for each in listed["untested"])
 
 
 def test_no_rule_and_no_bound_changes_without_an_entry(monkeypatch):

@@ -94,7 +94,7 @@ def made(tmp_path, monkeypatch):
     return made
 
 
-OF_RUNS = {"A6", "A7", "A8"}  # that the groups suffice for
+OF_RUNS = {"A6", "A7"}  # that the groups suffice for
 
 
 def test_a_record_has_claims_of_its_own_runs_and_those_of_pages_is_stable_and_notices_other_bits(made, monkeypatch):

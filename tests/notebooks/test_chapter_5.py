@@ -88,7 +88,8 @@ def test_the_answer_has_the_claims_of_both_conclusions_under_both_readings():
     stands = conclusions.standing(conclusions.of_reading("calibrated"), conclusions.CARRYING["Superposition"])
     assert f"Superposition {stands} " in answer
     assert re.findall(r"#claim-\w+\" [^>]*>(\w+)</a>", answer) == [
-        *conclusions.CARRYING["Superposition"], *conclusions.CARRYING["Learning apart from behaviour"], "T2", "T6"]
+        *conclusions.CARRYING["Superposition"], *conclusions.CARRYING["Learning apart from behaviour"], "T2", "T6",
+        *conclusions.REQUIREMENTS]
 
 
 def test_claims_that_fail_are_those_of_one_reading_and_those_without_any():

@@ -116,10 +116,10 @@ def test_single_maps_gain_little_over_brownian_motion(single, chance, expected):
     (500, (300, 400), 300, "reproduced"), (500, (300, 400), 600, "partly"), (500, (300, 600), 300, "partly"),
     (500, (300, 600), 700, "contradicted")])
 def test_exploration_is_compared_with_the_best_single_map_and_with_chance(together, alone, chance, expected):
-    claim = claims.judge_exploration(final(together), [final(each) for each in alone], final(chance))
+    claim = claims.judge_exploration(final(together), {str(each): final(each) for each in alone}, final(chance))
     assert claim.verdict == expected
     assert claim.here.value == pytest.approx(together / max(alone), abs=0.01)
-    assert claims.judge_exploration(final(2)[:9], [final(1)], final(1)).verdict == "no verdict"
+    assert claims.judge_exploration(final(2)[:9], {"N3": final(1)}, final(1)).verdict == "no verdict"
 
 
 def catching(before, after, final, runs=20):
@@ -156,6 +156,46 @@ def test_new_desires_are_served_at_once_or_need_learning(after, frozen, moved, e
     assert claim.numbers["caught a minute, first minute"][0].value == pytest.approx(
         60 * after.hits[:, 3_000:3_030].sum(axis=(1, 2)).mean() / 6)
     assert claim.numbers["distance at later visits, ignorant with place cells"][0].value == pytest.approx(0.5, abs=0.01)
+
+
+def test_the_window_after_a_change_of_desires_is_shown_beside_agents_that_moved_at_random():
+    turned = {"revalued": catching(1, 5, 3), "frozen": catching(1, 5, 5), "wanting": catching(5, 0, 0)}
+    turned["random"] = catching(1, 9, 9)
+    numbers = claims.judge_changes(turned, catching(1, 1, 1), dict.fromkeys(("both", "place cells"),
+                                                                           moves(0.1, 0.1))).numbers
+    assert numbers["share in the second minute"][0].value == pytest.approx(1)
+    assert numbers["share in the first minute, of those that had moved at random"][0].value == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("changed, removed, expected", [
+    (5, 5, "reproduced"), (1, 5, "partly"), (5, 1, "partly"), (1, 1, "contradicted")])
+def test_what_agents_know_is_what_they_catch_of_what_they_come_to_desire(changed, removed, expected):
+    turned = {"changed": (catching(1, 5, changed), catching(1, 5, 5)), "removed": (catching(1, 5, removed),
+                                                                                  catching(1, 5, 5))}
+    claim = claims.judge_knowledge(turned, catching(1, 1, 1))
+    assert claim.verdict == expected
+    assert claim.here.value == pytest.approx((min(changed, removed) - 1) / 4, abs=0.02)
+    assert claims.judge_knowledge(turned, catching(6, 6, 6)).verdict == "not testable"
+
+
+@pytest.mark.parametrize("both, points, expected", [
+    ((5, 5), (0.6, 0.6), "reproduced"), ((1, 5), (0.6, 0.6), "partly"), ((5, 5), (0.6, 0.2), "partly"),
+    ((1, 5), (0.2, 0.6), "contradicted")])
+def test_pasts_are_compared_by_how_well_they_serve_each_desire(both, points, expected):
+    pasts = {"both": {was: catching(1, each, each) for was, each in zip(("none", "green"), both)},
+             "papers": {was: made_up(each) for was, each in zip(("none", "green"), points)}}
+    chance = catching(1, 1, 1)
+    chance.rewards[:] = 0
+    assert claims.judge_pasts(pasts, chance).verdict == expected
+
+
+@pytest.mark.parametrize("levels, expected", [
+    ((0.1, 0.2, 0.3), "reproduced"), ((0.3, 0.2, 0.1), "partly"), ((0.0, 0.0, 0.0), "partly")])
+def test_scaling_is_a_strong_correlation_of_reward_with_the_number_of_maps(levels, expected):
+    grown = {"place cells": [made_up(0.1 * k) for k in (1, 2, 3)], "object-vector cells": [*map(made_up, levels)]}
+    claim = claims.judge_scaling(grown, brownian())
+    assert claim.verdict == expected and claim.numbers["final reward per second, place cells, 2 maps"]
+    assert claims.judge_scaling(grown, brownian(0.5)).verdict == "not testable"
 
 
 @pytest.mark.parametrize("together, expected", [(7.0, "reproduced"), (8.5, "contradicted")])
@@ -197,9 +237,9 @@ def test_persistence_is_needed_where_the_best_of_temporal_difference_fails(steps
 
 @pytest.mark.parametrize("stays, expected", [
     ([3.0, 1.0, 0.3], "reproduced"), ([3.0, 1.0, 1.2], "contradicted"), ([1.2, 1.1, 1.0], "contradicted"),
-    ([2.0, 1.0, 0.5], "partly"),  # as motion alone has it: this was reproduced
+    ([2.0, 1.0, 0.5], "reproduced"),  # as motion alone has it: this was partly
     ([0.3, 1.0, 3.0], "contradicted")])
-def test_the_time_scale_is_judged_by_the_stay_in_a_cell_beside_that_of_motion_alone(stays, expected):
+def test_the_time_scale_is_judged_by_the_stay_in_a_cell_and_shown_beside_that_of_motion_alone(stays, expected):
     noise = np.random.default_rng(0).uniform(0.99, 1.01, (20, 3))
     alone = {"Brownian motion": [2.2, 1.0, 0.45] * noise}
     claim = claims.judge_time_scale([3, 7, 23], stays * noise, alone)

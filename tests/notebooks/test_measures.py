@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 
 from companion.thesis.measures import (evenness, learning_minutes, lead_over_sum, least, minutes_sooner,
-                                       minutes_to_own_level, rank_correlation, share_of_lead, strength, widened)
+                                       minutes_to_own_level, rank_correlation, share_of_lead, widened)
 from neorl import Condition, Result, WaterWorld, place_cells
 from neorl.statistics import Estimate
 from neorl.statistics import difference, estimate, quotient
@@ -91,8 +91,7 @@ def test_a_rank_correlation_is_spearmans():
 
 @pytest.mark.parametrize("turned, given, expected", [
     (evenness, (2, 1.6, 4), (0.5, 0.25, 1 / 1.6)), (evenness, (0.9, 0.8, 1.5), (0.9, 1 / 1.5, 1)),
-    (evenness, (0.5, 0, 0.7), (0.5, 0, 0.7)), (strength, (-0.6, -0.7, -0.4), (0.6, 0.4, 0.7)),
-    (strength, (0.1, -0.2, 0.3), (0.1, 0, 0.3))])
+    (evenness, (0.5, 0, 0.7), (0.5, 0, 0.7))])
 def test_an_interval_is_turned_with_its_number(turned, given, expected):
     assert turned(Estimate(*given)) == pytest.approx(expected)
 

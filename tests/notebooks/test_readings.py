@@ -58,7 +58,8 @@ def test_the_letter_takes_what_is_pinned_and_the_simplest_of_what_is_open():
 
 PAPERS = {("brownian", 8): "A", "single": "A", "layer": "A", "layers": "A",
           ("brownian", 3): "B", "place": "B", "objects": "B", "both": "B",
-          "pace": "B", "network": "C", "long": "A", "revalued": "T", "frozen": "T", "wanting": "T"}
+          "pace": "B", "network": "C", "node": "C", "exploring": "C", "long": "A",
+          **dict.fromkeys(("revalued", "frozen", "wanting", "removed", "removed, frozen", "past"), "T")}
 
 
 @pytest.mark.parametrize("change", [
@@ -114,7 +115,7 @@ def test_conditions_come_in_groups_that_hold_all_in_the_end():
     some = conditions(TO_THE_LETTER, 3_000, 2, seed=5, groups=("modal",))
     assert list(some) == [("brownian", 3), ("place", "all"), ("objects", "all"), "both"]
     assert all(whole[key] == condition for key, condition in some.items())
-    with pytest.raises(ValueError, match="groups must be 'layers', 'single', 'modal', 'networks', 'revaluing', 'reso"):
+    with pytest.raises(ValueError, match="groups must be 'layers', 'single', 'modal', 'networks', 'exploring', "):
         conditions(TO_THE_LETTER, 3_000, 2, groups=["fast"])
 
 
@@ -142,7 +143,7 @@ def test_agents_that_learned_with_another_desire_then_desire_the_same_without_le
     assert valences["green", "papers"] == [{"green": 1, "red": 0}, {"green": 1, "red": -1}] and len(valences) == 5
     assert {condition.changes[0][1].learning.learning_rate > 0: condition.changes[0][1].desires
             for condition in (found["removed"], found["removed, frozen"])}.keys() == {True, False}
-    assert {condition.changes[0][0] for condition in found.values()} == {1_500}
+    assert {condition.changes[0][0] for condition in found.values() if condition.changes} == {1_500}
 
 
 def test_networks_stand_beside_their_nodes_alone_and_explore_a_little():
@@ -195,7 +196,7 @@ def test_readings_at_even_shares_fill_the_priors_evenly():
 def results():
     found = conditions(TO_THE_LETTER.varied(fps=30), 600, 2)
     cheap = {key: replace(condition, steps=min(condition.steps, 9_600)) for key, condition in found.items()
-             if key not in [("single", 70), ("single", 90)]}
+             if key not in [("single", 70), ("single", 90)] and key[0] != "exploring"}
     results = {key: simulate(**condition.choices, progress=False) for key, condition in cheap.items()}
     near = {"experienced": np.full((2, 6), 0.2), "ignorant": np.full((2, 6), 0.4)}
     return results | {("single", n): results["single", 50] for n in (70, 90)} | {
@@ -205,16 +206,17 @@ def results():
 def test_a_reading_is_judged_on_all_claims_that_readings_matter_for(results):
     judged = judge(results)
     assert list(judged) == [*(f"A{n}" for n in range(1, 10)), "A11", "B1", "B2", "B3", "B4", "B6",
-                            *(f"C{n}" for n in range(1, 5)), "T1", "T6"]
+                            *(f"C{n}" for n in range(1, 5)), "C6", "T1", "T6", "T10", "T11", "T12"]
     assert judged["B4"].outcome in ("not testable", "undecided")  # runs of minutes are too short
 
 
 @pytest.mark.parametrize("groups, names", [
-    (["single"], {"A1", "A2", "A3", "A4", "A5", "A11"}), (["layers"], {"A6", "A7", "A8"}),
+    (["single"], {"A1", "A2", "A3", "A4", "A5", "A11"}), (["layers"], {"A6", "A7"}),
+    (["layers", "single"], {*(f"A{n}" for n in range(1, 10)), "A11"}), (["wanted"], {"T10", "T11"}),
     (["modal"], {"B1", "B3", "B6"}),
     (["resolutions"], set()),
     (["modal", "resolutions"], {"B1", "B2", "B3", "B6"}),
-    (["networks", "revaluing"], {"C1", "C2", "C3", "C4"}),  # T1 asks for places that move, too
+    (["networks", "revaluing"], {"C1", "C2", "C3", "C4", "C6"}),  # T1 asks for places that move, too
     (["pace"], {"B4"})])
 def test_some_groups_suffice_for_some_claims(results, groups, names):
     assert set(judge({key: results[key] for group in groups for key in GROUPS[group]})) == names

@@ -4,7 +4,7 @@ import json
 from dataclasses import replace
 
 import pytest
-from test_claims import brownian, paper_a, paper_c
+from test_claims import alone, brownian, paper_a, paper_c
 
 from companion.page import report
 from companion.thesis import claims
@@ -15,8 +15,8 @@ from companion.thesis.verdict import Claim
 pytestmark = pytest.mark.usefixtures("cache_folder")
 
 
-def networks(*agents):
-    return claims.judge_networks(*(agents or paper_c()), brownian())
+def networks(results=None):
+    return claims.judge_networks(results or paper_c(), alone(), brownian())
 
 
 def layers(runs=20):
@@ -26,7 +26,7 @@ def layers(runs=20):
 
 def test_claims_are_kept_as_data_and_a_bound_that_does_not_exist_as_null(record, cache_folder):
     kept = json.loads((cache_folder / "claims" / "paper_c.json").read_text())
-    assert list(kept["claims"]) == ["C1", "C2", "C3", "C4"] and "letter" not in kept
+    assert list(kept["claims"]) == ["C1", "C2", "C3", "C4", "C6"] and "letter" not in kept
     assert kept["claims"]["C4"]["here"] == list(networks()[3].here) and kept["claims"]["C4"]["runs"] == 20
     text = (cache_folder / "claims" / "alternatives.json").read_text()
     assert "NaN" not in text and json.loads(text)["claims"]["C5"]["here"][1:] == [None, None]
@@ -41,7 +41,7 @@ def test_a_record_has_all_claims_of_its_page_or_stays_as_it_was(record, cache_fo
 def test_claims_to_the_letter_are_kept_apart(cache_folder):
     report.save("paper_c", networks(), reading="letter")
     found = report.load((cache_folder / "claims").iterdir())
-    assert not found["claims"] and list(found["letter"]) == ["C1", "C2", "C3", "C4"]
+    assert not found["claims"] and list(found["letter"]) == ["C1", "C2", "C3", "C4", "C6"]
 
 
 def test_a_claim_that_several_pages_have_judged_is_that_of_most_runs(tmp_path):
@@ -52,14 +52,15 @@ def test_a_claim_that_several_pages_have_judged_is_that_of_most_runs(tmp_path):
 
 
 def test_what_a_verdict_rests_on_is_the_numbers_of_both_readings():
-    kept = {"claims": report.kept(networks()), "letter": report.kept(networks(*paper_c()[::-1]))}
+    backwards = dict(zip("ABCD", [*paper_c().values()][::-1]))
+    kept = {"claims": report.kept(networks()), "letter": report.kept(networks(backwards))}
     header, _, rise, weak, lead, *_, note = report.numbers(kept, "C1").splitlines()
     assert header == "| Number | Rule | Here, 20 runs or more | To the letter, 20 runs or more |"
     assert rise == ("| Final reward per second of A, less its early one | 0.01 or more (what a figure shows) | "
                     "✓\u00a00.05 [0.05, 0.05] | ✓\u00a00.40 [0.40, 0.40] |")
     assert weak.startswith("| half of C, less A | more than 0 (weak: less than half of what C earns) | ✓\u00a00.10 [")
-    assert lead.startswith("| lead over Brownian motion |  | 0.05 [")
-    assert note == ("The verdict rests on 2 intervals, so that each is one of 97.50\u00a0%: all hold together with "
+    assert lead.startswith("| lead over Brownian motion | 0.01 or more (proficiency: more than by chance")
+    assert note == ("The verdict rests on 3 intervals, so that each is one of 98.33\u00a0%: all hold together with "
                     "95\u00a0%.")
 
 

@@ -16,13 +16,14 @@ from companion.thesis.reading import additions
 from companion.thesis.statements import AGENTS, APART, CLAIMS, DEMONSTRATIONS, STATEMENTS
 from companion.thesis.verdict import FAILED
 
-SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "A9", "A11", "B1", "B2", "B3", "B4", "B6", "T6")
-SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
+SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "A9", "A11", "B1", "B2", "B3", "B4", "B6", "T6", "T12")
+SEPARATION = ("T1", "T7", "T10", "T11", "C1", "C2", "C3", "C4", "C6")
 CARRYING = {"Superposition": ("A6", "B2", "B3", "B6"), "Learning apart from behaviour": ("C3", "C4", "T1", "T7")}
 GROUND = tuple(name for name in AGENTS if name not in SUPERPOSITION + SEPARATION)
 GROUPS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION, "What both rest on": GROUND,
           "Counted apart": APART, "Beside the claims": DEMONSTRATIONS}
 OWN = CLAIMS_OF["chapter_5"]
+REQUIREMENTS = ("T10", "T11", "T12")  # of chapter 4, and what section 4.4 says of them, which the record alone judges
 TURNED = ("revalued", "frozen", "wanting")  # agents whose desires change, or that had the later ones from the start
 
 
@@ -51,7 +52,7 @@ def answer():
         calibrated, letter = (standing(of_reading(reading), names) for reading in report.PART_OF)
         stand.append(f"{name.lower()} {calibrated} under both readings" if calibrated == letter else
                      f"{name.lower()} {calibrated} as calibrated, and {letter} to the letter")
-    rest = {"Judged on this page too": [name for name in OWN if name not in sum(CARRYING.values(), ())]}
+    rest = {"Of this chapter too": [name for name in (*OWN, *REQUIREMENTS) if name not in sum(CARRYING.values(), ())]}
     sentences = "; ".join(stand), recorded.finding(report.record(), "T1")
     return recorded.shown(" ".join(f"{words[0].upper()}{words[1:]}." for words in sentences), CARRYING | rest)
 

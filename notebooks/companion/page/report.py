@@ -32,9 +32,9 @@ PARTS = ("claims", "letter", "shares")  # of all records together
 CLAIMS_OF = {"alternatives": ("A10", "C5"), "chapter_2": ("H1",), "chapter_3": ("T3", "T4"), "chapter_4": ("T5", "T7"),
              "chapter_5": ("T1", "T2", "T6"),
              "other_spaces": ("G1", "G2", "G3", "G4"), "paper_a": (*(f"A{n}" for n in range(1, 10)), "A11", "T9"),
-             "paper_b": (*(f"B{n}" for n in range(1, 8)), "T8"), "paper_c": ("C1", "C2", "C3", "C4"),
+             "paper_b": (*(f"B{n}" for n in range(1, 8)), "T8"), "paper_c": ("C1", "C2", "C3", "C4", "C6"),
              "assumptions": (*(f"A{n}" for n in range(1, 10)), "A11", "B1", "B2", "B3", "B4", "B6", "C1", "C2", "C3",
-                             "C4", "T6")}  # the last to the letter
+                             "C4", "C6", "T6")}  # the last to the letter
 MISSING = None, "", "", ""  # a number under one reading that the other has not
 
 

@@ -62,13 +62,6 @@ def evenness(quotient_of_two):
     return Estimate(min(value, 1 / value) if value > 0 else 0.0, min(ends), 1.0 if low <= 1 <= high else max(ends))
 
 
-def strength(correlation):
-    """An `Estimate` of a correlation, without its sign."""
-    value, low, high = correlation
-    ends = sorted((abs(low), abs(high)))
-    return Estimate(abs(value), 0.0 if low <= 0 <= high else ends[0], ends[1])
-
-
 def lead_over_sum(a, *others, axis):
     """The mean of a less the sum of the means of the others, for `estimate`."""
     return a.mean(axis) - sum(other.mean(axis) for other in others)

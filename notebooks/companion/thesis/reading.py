@@ -7,6 +7,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Annotated, Any
 
 from neorl.agents import papers
@@ -24,7 +25,8 @@ LONGER = 16  # times as long are the runs that measure the time to the final lev
 BLOCKS = 8  # times as long as paper A's are the runs that show where single maps end
 CONTROLS = 8  # times as many runs of Brownian motion, which most readings share
 
-NODES = ("places", "objects", "one layer")  # what network C is made of, each alone: its two nodes, and both side by side
+# What network C is made of: its two nodes, and both side by side, with the names that pages give them.
+NODES = {"places": "places alone", "objects": "object vectors alone", "one layer": "both in one layer"}
 A_LITTLE = 0.02  # share of actions at random, of networks that may stand at a wall for ever
 PASTS = ("none", "green", "papers")  # what agents desired while they learned: nothing, green, or green and no red
 
@@ -40,10 +42,10 @@ GROUPS = {
     "pace": (("brownian", 3), ("pace", "place"), ("pace", "both")),
     "long": tuple(("long", n) for n in SINGLE),
     "grown": tuple((modality, f"first {k}") for modality in ("place", "objects") for k in range(2, len(PRIMES))),
-    "wanted": ("revalued", "frozen", "removed", "removed, frozen",
-               *(("past", was, then) for was in PASTS for then in ("papers", "both") if (was, then) != ("papers", "both"))),
+    "wanted": (("brownian", 3), "revalued", "frozen", "removed", "removed, frozen",
+               *(("past", *pair) for pair in product(PASTS, ("papers", "both")) if pair != ("papers", "both"))),
 }
-
+RECORDED_ALONE = ("long", "exploring", "grown", "wanted")  # groups that no page runs, since they would take it minutes
 
 # The choices that the parts of a reading make, by the names of their fields.
 PARTS = {
@@ -253,7 +255,7 @@ def judge(results):
         `judge_changes`.
     """
     by = {name: {key[1]: result for key, result in results.items() if key[0] == name}
-          for name in ("brownian", "layer", "single", "long", "place", "objects", "pace", "network")}
+          for name in ("brownian", "layer", "single", "long", "place", "objects", "pace", "network", "node")}
 
     def complete(*groups):
         return all(key in results for group in groups for key in GROUPS[group])
@@ -264,7 +266,8 @@ def judge(results):
     if complete("layers"):
         judged += claims.judge_multiple_layers(by["layer"], results["layers"], by["brownian"][8])
     if complete("layers", "single"):
-        judged += [claims.judge_margin(by["layer"] | by["single"], by["brownian"][8])]
+        judged += [claims.judge_several(by["layer"], by["single"], results["layers"], by["brownian"][8]),
+                   claims.judge_margin(by["layer"] | by["single"], by["brownian"][8])]
     if complete("modal"):
         judged += claims.judge_modalities(by["place"]["all"], by["objects"]["all"], results["both"], by["brownian"][3])
     if complete("modal", "resolutions"):
@@ -272,10 +275,24 @@ def judge(results):
     if complete("pace"):
         judged += [claims.judge_pace(**by["pace"], brownian=by["brownian"][3])]
     if complete("networks"):
-        judged += claims.judge_networks(*(by["network"][name] for name in "ABCD"), by["brownian"][3])
+        nodes = {of_page: by["node"][name] for name, of_page in NODES.items()}
+        judged += claims.judge_networks({name: by["network"][name] for name in "ABCD"}, nodes, by["brownian"][3])
     if complete("revaluing") and "moved" in results:
-        judged += [claims.judge_changes({name: results[name] for name in ("revalued", "frozen", "wanting")},
-                                        by["brownian"][3], results["moved"])]
+        turned = {name: results[name] for name in ("revalued", "frozen", "wanting")}
+        if ("past", "none", "both") in results:
+            turned["random"] = results["past", "none", "both"]
+        judged += [claims.judge_changes(turned, by["brownian"][3], results["moved"])]
+    if complete("wanted"):
+        turned = {"changed": (results["revalued"], results["frozen"]),
+                  "removed": (results["removed"], results["removed, frozen"])}
+        pasts = {then: {was: results["frozen"] if (was, then) == ("papers", "both") else results["past", was, then]
+                        for was in PASTS} for then in ("papers", "both")}
+        judged += [claims.judge_knowledge(turned, by["brownian"][3]), claims.judge_pasts(pasts, by["brownian"][3])]
+    if complete("modal", "resolutions", "grown"):
+        grown = {name: [results[key, PRIMES[0]], *(results[key, f"first {k}"] for k in range(2, len(PRIMES))),
+                        results[key, "all"]] for key, name in (("place", "place cells"),
+                                                               ("objects", "object-vector cells"))}
+        judged += [claims.judge_scaling(grown, by["brownian"][3])]
     if complete("layers", "modal", "resolutions"):
         judged += [claims.judge_more_maps(additions(results))]
     order = [*STATEMENTS].index

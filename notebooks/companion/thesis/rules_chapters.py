@@ -5,13 +5,18 @@
 
 import numpy as np
 
-from companion.thesis.measures import FINAL, exact, least, minutes_sooner, most, share_of_lead
+from companion.thesis.measures import FINAL, exact, least, minutes_sooner, most, rank_correlation, share_of_lead
 from companion.thesis.statements import POSITIVE, STATEMENTS
-from companion.thesis.verdict import AFTER_TURN, all_of, any_of, fewest_runs, judged, learned
+from companion.thesis.verdict import AFTER_TURN, all_of, any_learned, any_of, fewest_runs, judged, learned
 from neorl.statistics import difference, estimate, probability_of_improvement, quotient, ratio
 
-MINUTES = {"5 minutes before": (0.475, 0.5), "first minute": (0.5, 0.505), "minutes 2 to 5": (0.505, 0.525),
-           "after half an hour": (0.65, 0.675), "after 60 to 100 minutes": (0.8, 1.0)}  # shares of 200 minutes
+MINUTES = {"5 minutes before": (0.475, 0.5), "first minute": (0.5, 0.505), "second minute": (0.505, 0.51),
+           "minutes 2 to 5": (0.505, 0.525), "after half an hour": (0.65, 0.675),
+           "after 60 to 100 minutes": (0.8, 1.0)}  # shares of 200 minutes
+# What agents desired while they learned, what they desire then, and what measures how well they get it.
+PAST = {"none": "nothing wanted before", "green": "green wanted before", "papers": "green wanted and red feared before"}
+THEN = {"papers": "green wanted and red feared", "both": "both colours wanted"}
+MEASURED = {"papers": "points a second", "both": "caught a minute"}
 ABOVE_CHANCE, NEARER, NO_FARTHER = STATEMENTS["T1"].also
 
 
@@ -19,8 +24,9 @@ def judge_changes(turned, brownian, moved):
     """Claim T1, on revaluing elements and on moving them.
 
     turned: {"revalued": the `Result` of agents that desire red creeps too from half-time on, "frozen": that of the same
-    agents, which learn no more from there, "wanting": that of agents that desired them from the start}, of runs of one
-    length, 200 minutes at best. brownian: Brownian motion on the same board.
+    agents, which learn no more from there, "wanting": that of agents that desired them from the start, of runs of one
+    length, 200 minutes at best; and maybe "random": those that have desired nothing before, and learn no more}.
+    brownian: Brownian motion on the same board.
     moved: mean distances, in board widths, to a desired place in the time after each of its moves between two points:
     {"both": {"experienced": (runs, moves), "ignorant": (runs, moves)}, "place cells": the same}, an even number of
     moves, 4 or more, of agents with and without experience among creeps. Agents with both modalities decide.
@@ -30,7 +36,13 @@ def judge_changes(turned, brownian, moved):
     chance = 60 * brownian.hit_rate().sum(axis=1)
     first, later = _visits(moved["both"]["experienced"])
     ignorant, _ = _visits(moved["both"]["ignorant"])
-    shown = {f"caught a minute, {when}": estimate(np.mean, caught_a_minute(turned["revalued"], when))
+    others = {f"in the {when}": ("revalued", "frozen", when) for when in ("second minute", "minutes 2 to 5")}
+    if "random" in turned:
+        others["in the first minute, of those that had moved at random"] = "revalued", "random", "first minute"
+    shown = {f"share {what}": estimate(share_of_lead, caught_a_minute(turned[one], when), chance,
+                                       caught_a_minute(turned[other], when))
+             for what, (one, other, when) in others.items()}
+    shown |= {f"caught a minute, {when}": estimate(np.mean, caught_a_minute(turned["revalued"], when))
              for when in MINUTES}
     shown |= {f"caught in the first minute, {who}": estimate(np.mean, each) for who, each in (
         ("learning off", frozen), ("wanted from the start", caught_a_minute(turned["wanting"], "first minute")),
@@ -157,7 +169,7 @@ def judge_time_scale(resolutions, stays, without):
     """Claim T8, from how long agents stay in the cells of maps of several resolutions.
 
     resolutions: N of each map, (maps,). stays: the mean time from one change of cell to the next, (runs, maps), in
-    any unit. without: {name: the same}, of motion without values, in the same maps: what the relation has to exceed.
+    any unit. without: {name: the same}, of motion without values, in the same maps, which is only shown.
     Returns a `Claim`.
     """
     order = np.argsort(resolutions)[::-1]
@@ -166,11 +178,72 @@ def judge_time_scale(resolutions, stays, without):
     coarser = [f"N{resolutions[at]}" for at in order[1:]]
     longer = dict(zip(coarser, (estimate(np.mean, each) for each in np.diff(time, axis=1).T)))
     alone = {name: _powers(width, np.log(each)[:, order]) for name, each in without.items()}
-    return judged("T8", estimate(np.mean, powers), len(stays),
-                  {"longer in the next coarser map": longer, "above that of motion without values": {
-                      name: estimate(difference, powers, each) for name, each in alone.items()}},
-                  shown={"exponent": {name: estimate(np.mean, each) for name, each in alone.items()}},
-                  parts=[(STATEMENTS["T8"].statistic, "longer in the next coarser map")])
+    return judged("T8", estimate(np.mean, powers), len(stays), {"longer in the next coarser map": longer},
+                  shown={"exponent": {name: estimate(np.mean, each) for name, each in alone.items()}}, parts=())
+
+
+def judge_knowledge(turned, brownian):
+    """Claim T10, from agents whose elements of interest change at half-time.
+
+    turned: {"changed": (`Result` of agents that go on learning, that of the same that learn no more), "removed": the
+    same}, of agents that fear red creeps before, and then desire them too, or have no desire for them. brownian:
+    Brownian motion on the same board.
+    What agents catch of what they desire says what they know; what those know that learn no more has not changed.
+    Returns a `Claim`.
+    """
+    colours = {"changed": slice(None), "removed": slice(0, 1)}
+    caught = {what: [60 * each.hit_rate(*FINAL)[:, colours[what]].sum(axis=1) for each in both]
+              for what, both in turned.items()}
+    chance = {what: 60 * brownian.hit_rate()[:, colours[what]].sum(axis=1) for what in turned}
+    kept = {what: estimate(share_of_lead, learning, chance[what], frozen)
+            for what, (learning, frozen) in caught.items()}
+    return judged("T10", (least, "kept"), fewest_runs(*(each for both in turned.values() for each in both)),
+                  {"kept": kept}, shown={f"caught a minute, {what}": dict(zip(
+                      ("learning on", "learning off", "Brownian motion"),
+                      (estimate(np.mean, each) for each in (*caught[what], chance[what])))) for what in turned},
+                  testable=any_of([POSITIVE.decide(estimate(difference, caught[what][1], chance[what]))
+                                   for what in turned]))
+
+
+def judge_pasts(pasts, brownian):
+    """Claim T11, from agents that have learned with other desires, then all desire the same and learn no more.
+
+    pasts: {"papers" or "both", what they desire then: {what they desired while they learned: `Result`}}; "papers" is
+    green creeps and no red ones, "both" is both colours. brownian: Brownian motion on the same board.
+    They are compared, for each desire, with the past that serves it best: by points a second under that of the papers,
+    and by the creeps of both colours that they catch a minute under the other.
+    Returns a `Claim`.
+    """
+    def earned(then, result, when):
+        return result.rate(*when) if then == "papers" else 60 * result.hit_rate(*when).sum(axis=1)
+
+    share, level, best_leads = {}, {}, []
+    for then, of_past in pasts.items():
+        rates = {was: earned(then, each, FINAL) for was, each in of_past.items()}
+        chance = earned(then, brownian, (0, 1))
+        best = max(rates, key=lambda was: rates[was].mean())
+        share[f"share, {THEN[then]}"] = {PAST[was]: estimate(share_of_lead, rates[was], chance, rates[best])
+                                         for was in rates if was != best}
+        level[f"{MEASURED[then]}, {THEN[then]}"] = {PAST[was]: estimate(np.mean, each) for was, each in rates.items()}
+        best_leads.append(POSITIVE.decide(estimate(difference, rates[best], chance)))
+    runs = min(fewest_runs(*of_past.values()) for of_past in pasts.values())
+    return judged("T11", (least, "share"), runs, share, shown=level, parts=[(what,) for what in share],
+                  testable=any_of(best_leads))
+
+
+def judge_scaling(grown, brownian):
+    """Claim T12, from agents with more and more maps.
+
+    grown: {which: `Result`s of agents with one map, with two, and so on}. brownian: Brownian motion on the same board.
+    Returns a `Claim`.
+    """
+    final = {name: [each.rate(*FINAL) for each in results] for name, results in grown.items()}
+    everyone = [each for results in grown.values() for each in results]
+    return judged("T12", (least, "correlation"), fewest_runs(*everyone),
+                  {"correlation": {name: estimate(rank_correlation, *each) for name, each in final.items()}},
+                  shown={f"final reward per second, {name}": {f"{k} map{'s' * (k > 1)}": estimate(np.mean, rates)
+                                                              for k, rates in enumerate(each, 1)}
+                         for name, each in final.items()}, testable=any_learned(everyone, brownian))
 
 
 def judge_latent_learning(agent, rivals, first_reward=11):

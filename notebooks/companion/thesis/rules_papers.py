@@ -8,14 +8,14 @@ from itertools import combinations
 import numpy as np
 
 from companion.thesis.measures import (EARLY, FINAL, evenness, exact, lead_over_sum, learning_minutes, least,
-                                       minutes_sooner, minutes_to_own_level, most, rank_correlation, share_over_sum,
-                                       strength)
+                                       minutes_sooner, minutes_to_own_level, most, rank_correlation, share_over_sum)
 from companion.thesis.statements import STATEMENTS
-from companion.thesis.verdict import (AFTER_TURN, all_of, any_of, fewest_runs, judged, lead_over_brownian, leads,
-                                      learned)
+from companion.thesis.verdict import (AFTER_TURN, all_of, any_learned, any_of, fewest_runs, judged, lead_over_brownian,
+                                      leads, learned)
 from neorl.statistics import (difference, estimate, points, probability_of_improvement, quotient, ratio, resets)
 
 LENGTH = 150_000  # of the runs of paper A, in steps
+STANDS = 0.05  # reward per second in the last fifth: a run of paper C that earns less has come to stand, see the page
 POINTS_PER_RESET = 24 / 7  # expected, whatever the agent does: points and twice the green creeps are a martingale
 
 
@@ -36,7 +36,7 @@ def judge_single_layer(by_resolution, brownian, long=None):
     a1 = judged("A1", scores["Brownian motion"], runs, {"resets": estimate(np.mean, resets(brownian) * share)})
 
     lead = {n: estimate(difference, values, brownian.rate()) for n, values in rate.items()}
-    some_learned = any_of(map(leads, lead.values()))
+    some_learned = any_learned(by_resolution.values(), brownian)
     smallest = min(lead, key=lambda n: lead[n].low)
     chance = probability_of_improvement(rate[smallest], brownian.rate())
     a2 = judged("A2", (least, "lead"), runs, {"lead": _of_maps(lead)},
@@ -44,19 +44,20 @@ def judge_single_layer(by_resolution, brownian, long=None):
                        "probability that a run beats one of the control": _of_maps({smallest: chance})})
 
     early, final = ({n: by_resolution[n].rate(*when) for n in rate} for when in (EARLY, FINAL))
-    a3 = judged("A3", (most, _of_maps({n: estimate(difference, final[n], final[10]) for n in rate if n > 10})), runs,
+    finer = {n: estimate(difference, final[n], final[10]) for n in rate if n > 10}
+    a3 = judged("A3", estimate(rank_correlation, *final.values()), runs,
                 {"rank correlation of N with early reward": estimate(rank_correlation, *early.values())},
-                shown={f"reward per second in the last of {round(each.steps / LENGTH)} blocks of 150,000 steps, N{n}":
-                       estimate(np.mean, each.rate(max(0, 1 - LENGTH / each.steps)))
-                       for n, each in (long or {}).items()},
+                shown={"final reward per second, less that of N10": _of_maps(finer),
+                       **{f"reward per second in the last of {round(each.steps / LENGTH)} blocks of 150,000 steps, "
+                          f"N{n}": estimate(np.mean, each.rate(max(0, 1 - LENGTH / each.steps)))
+                          for n, each in (long or {}).items()}},
                 testable=some_learned)
 
     over = {n: estimate(difference, rate[50], rate[n]) for n in rate if n != 50}
     a4 = judged("A4", (least, "over"), runs, {"over": _of_maps(over)}, shown={"reward per second": _of_maps(
         {n: estimate(np.mean, values) for n, values in rate.items()})}, parts=(), testable=some_learned)
 
-    a11 = judged("A11", strength(correlation := estimate(rank_correlation, *rate.values())), runs,
-                 shown={"with its sign": correlation}, testable=some_learned)
+    a11 = judged("A11", estimate(rank_correlation, *rate.values()), runs, testable=some_learned)
     return [a1, a2, a3, a4, _judge_evenness(by_resolution, brownian, lead, runs), a11]
 
 
@@ -72,33 +73,30 @@ def _judge_evenness(by_resolution, brownian, lead, runs):
     pairs = {f"N{fine} and N{coarse}": evenness(learning_minutes(by_resolution[fine], by_resolution[coarse],
                                                                  chance=brownian.rate(), of=quotient))
              for coarse, fine in combinations(learning, 2)}
-    nothing_learned = any_of(final.values()) is False
     return judged("A5", (least, "of two maps") if pairs else exact(0.0), runs, {"of two maps": pairs},
                   shown={"learning time in minutes": _of_maps(minutes)},
                   parts=[("of two maps, N70 and N10",)] if "N70 and N10" in pairs else (),
-                  testable=True if pairs else False if nothing_learned else None)
+                  testable=None if not pairs and any_of(final.values()) is not False else bool(pairs))
 
 
 def judge_multiple_layers(by_resolution, together, brownian):
-    """Claims A6–A8 of paper A, from its figure 7.
+    """Claims A6 and A7 of paper A, from its figure 7.
 
     by_resolution: {N: `Result`} for N 3, 7, 23. together: the `Result` of the agent with all three maps, in runs of the
     same length. brownian: that of Brownian motion on the same board.
-    Returns a list of `Claim`s: A6 to A8.
+    Returns a list of `Claim`s: A6 and A7.
     """
     alone = [*by_resolution.values()]
     runs = fewest_runs(*alone, together)
     final = {n: result.rate(*FINAL) for n, result in by_resolution.items()}
     all_final = together.rate(*FINAL)
-    best = max(final, key=lambda n: final[n].mean())
-    some_learned = any_of([learned(result, brownian) for result in (*alone, together)])
 
     sooner = estimate(lead_over_sum, together.rate(0, FINAL[0]), *(each.rate(0, FINAL[0]) for each in alone))
     a6 = judged("A6", estimate(lead_over_sum, all_final, *final.values()), runs,
                 {"surplus before the last fifth": sooner},
                 shown={"surplus, as a share of what they earn together": estimate(share_over_sum, all_final,
                                                                                   *final.values())},
-                testable=some_learned)
+                testable=any_learned((*alone, together), brownian))
 
     sooner = minutes_sooner(together, by_resolution[7], 0.5)
     earned = {"3, 7 and 23 together": all_final, "N7": final[7], "Brownian motion": brownian.rate()}
@@ -108,15 +106,28 @@ def judge_multiple_layers(by_resolution, together, brownian):
                 {"final reward per second": {name: estimate(np.mean, rates) for name, rates in earned.items()},
                  "minutes sooner": sooner}, testable=learned(by_resolution[7], brownian))
 
+    return [a6, a7]
+
+
+def judge_several(by_resolution, single, together, brownian):
+    """Claim A8, from paper A's figures 6 and 7.
+
+    by_resolution: {N: `Result`} of the maps that the agent with several has. single: of other single maps on the same
+    board, which it has to exceed finally as well. together, brownian: `Result`s of several maps and Brownian motion.
+    Returns a `Claim`.
+    """
+    alone, all_final = [*by_resolution.values()], together.rate(*FINAL)
     sooner = {n: minutes_sooner(together, result, 0.5, *(each for each in alone if each is not result))
               for n, result in by_resolution.items()}
-    lead = {n: estimate(difference, all_final, values) for n, values in final.items()}
-    chance = probability_of_improvement(all_final, final[best])
-    a8 = judged("A8", (least, "minutes sooner"), runs,
-                {"minutes sooner": _of_maps(sooner), "final lead": _of_maps(lead)},
-                shown={"probability of improvement": _of_maps({best: chance})},
-                parts=[("minutes sooner",), ("final lead",)], testable=some_learned)
-    return [a6, a7, a8]
+    final = {n: result.rate(*FINAL) for n, result in sorted((by_resolution | single).items())}
+    best = max(final, key=lambda n: final[n].mean())
+    return judged("A8", (least, "minutes sooner"), fewest_runs(*alone, *single.values(), together),
+                  {"minutes sooner": _of_maps(sooner),
+                   "final lead": _of_maps({n: estimate(difference, all_final, each) for n, each in final.items()})},
+                  shown={"probability of improvement": _of_maps({best: probability_of_improvement(all_final,
+                                                                                                  final[best])})},
+                  parts=[("minutes sooner",), ("final lead",)],
+                  testable=any_learned((*alone, *single.values(), together), brownian))
 
 
 def judge_margin(by_resolution, brownian):
@@ -142,14 +153,14 @@ def _gain_in_chances(chance, *single, axis):
 def judge_exploration(together, alone, brownian):
     """Demonstration T9, from the number of squares of the board in which each run is in its first tenth, (runs,) each.
 
-    together: of the agent with N3, N7 and N23. alone: a sequence, of those with one of these. brownian: of Brownian
+    together: of the agent with N3, N7 and N23. alone: {which: of those with one of these}. brownian: of Brownian
     motion.
     Returns a `Claim`.
     """
-    best = max(alone, key=np.mean)
-    over_one, over_chance = (estimate(ratio, together, other) for other in (best, brownian))
-    return judged("T9", over_one, min(map(len, (together, *alone, brownian))), {"over Brownian motion": over_chance},
-                  shown={"squares": estimate(np.mean, together)})
+    over = {name: estimate(ratio, together, each) for name, each in alone.items()}
+    return judged("T9", (least, "over one map"), min(map(len, (together, *alone.values(), brownian))),
+                  {"over one map": over, "over Brownian motion": estimate(ratio, together, brownian)},
+                  shown={"squares": estimate(np.mean, together)}, parts=[("over one map",), ("over Brownian motion",)])
 
 
 def judge_modalities(place, objects, both, brownian):
@@ -161,18 +172,18 @@ def judge_modalities(place, objects, both, brownian):
     """
     runs = fewest_runs(place, objects, both)
     pc, ovc, joint = (result.rate(*FINAL) for result in (place, objects, both))
-    knows_place, knows_objects = (learned(result, brownian) for result in (place, objects))
 
     b1 = judged("B1", estimate(ratio, objects.rate(), place.rate()), runs,
-                shown={"finally": estimate(ratio, ovc, pc)}, testable=knows_place)
+                shown={"finally": estimate(ratio, ovc, pc)}, testable=learned(place, brownian))
     b3 = judged("B3", estimate(np.mean, joint), runs, {"place cells": estimate(np.mean, pc)})
 
     alone = {"place cells": place, "object-vector cells": objects}
-    sooner = {"place cells": minutes_sooner(both, place, 0.9, objects),
-              "object-vector cells": minutes_sooner(both, objects, 0.9, place)}
+    sooner = {name: minutes_to_own_level(result, both, of=np.subtract) for name, result in alone.items()}
     lead = {name: estimate(difference, joint, result.rate(*FINAL)) for name, result in alone.items()}
     b6 = judged("B6", (least, "minutes sooner"), runs, {"minutes sooner": sooner, "final lead": lead},
-                parts=[("minutes sooner",), ("final lead",)], testable=any_of([knows_place, knows_objects]))
+                shown={"minutes": {name: minutes_to_own_level(result)
+                                   for name, result in {**alone, "both modalities": both}.items()}},
+                parts=[("minutes sooner",), ("final lead",)], testable=any_learned((place, objects, both), brownian))
     return [b1, b3, b6]
 
 
@@ -188,7 +199,7 @@ def judge_resolutions(place, objects, brownian):
                               for n, result in results.items() if n != "all"}
             for name, results in (("place cells", place), ("object-vector cells", objects))}
     return judged("B2", (least, "lead"), runs, lead, parts=[(what,) for what in lead],
-                  testable=any_of([learned(result, brownian) for result in (*place.values(), *objects.values())]))
+                  testable=any_learned((*place.values(), *objects.values()), brownian))
 
 
 def judge_pace(place, both, brownian):
@@ -228,36 +239,51 @@ def judge_joining(joined, place, brownian):
     return judged("B7", gain, fewest_runs(joined, place), {"kept": kept}, testable=learned(place, brownian))
 
 
-def judge_networks(a, b, c, d, brownian):
-    """Claims C1–C4 of paper C, from its figure 4e and the `Result`s of its four agents.
+def judge_networks(networks, nodes, brownian):
+    """Claims C1–C4 and C6 of paper C, from its figure 4e and from the agents that it lacks.
 
-    brownian: the `Result` of Brownian motion on the same board, which A has to exceed to have improved, and D to have
-    done so drastically.
-    Returns a list of `Claim`s: C1 to C4.
+    networks: {"A" to "D": `Result`}. nodes: {which: `Result`} of C's two nodes, each alone, and both in one layer.
+    brownian: the `Result` of Brownian motion on the same board, which A and D have to exceed.
+    Returns a list of `Claim`s: C1 to C4 and C6.
     """
-    results = dict(zip("ABCD", (a, b, c, d)))
-    runs = fewest_runs(*results.values())
-    final = {name: result.rate(*FINAL) for name, result in results.items()}
-    lead_of_a, lead_of_d = (lead_over_brownian(results[name], brownian) for name in "AD")
+    everyone = networks | nodes
+    runs = fewest_runs(*everyone.values())
+    final = {name: result.rate(*FINAL) for name, result in everyone.items()}
+    leads_of = {name: lead_over_brownian(networks[name], brownian) for name in "AD"}
 
-    c1 = judged("C1", estimate(np.mean, final["A"] - a.rate(*EARLY)), runs,
-                {"half of C, less A": estimate(difference, 0.5 * final["C"], final["A"])},
-                shown={"lead over Brownian motion": lead_of_a,
-                       **{name: estimate(np.mean, final[name]) for name in "AC"}})
+    def testable(*names):
+        return any_learned([everyone[name] for name in names], brownian)
+
+    c1 = judged("C1", estimate(np.mean, final["A"] - networks["A"].rate(*EARLY)), runs,
+                {"half of C, less A": estimate(difference, 0.5 * final["C"], final["A"]),
+                 "lead over Brownian motion": leads_of["A"]},
+                shown={name: estimate(np.mean, final[name]) for name in "AC"},
+                parts=[(STATEMENTS["C1"].statistic,), ("half of C, less A",)], testable=testable("A", "C"))
 
     c2 = judged("C2", estimate(difference, final["B"], final["A"]), runs, shown={
-        "probability that a run beats one of A": probability_of_improvement(final["B"], final["A"])})
+        "probability that a run beats one of A": probability_of_improvement(final["B"], final["A"])},
+        testable=testable("A", "B"))
 
-    over = {name: estimate(difference, final["C"], final[name]) for name in "AB"}
+    over = {name: estimate(difference, final["C"], final[name]) for name in (*"AB", *nodes)}
     c3 = judged("C3", (least, "over"), runs, {"over": over}, shown={
-        "probability that a run beats one of B": probability_of_improvement(final["C"], final["B"])})
+        "final reward per second": {name: estimate(np.mean, rates) for name, rates in final.items()}},
+        parts=[("over, A", "over, B")], testable=testable("C", *over))
 
+    moving = [final[name][final[name] > STANDS] for name in "DC"]
     c4 = judged("C4", estimate(_over_other_or_chance, final["D"], final["C"], brownian.rate()), runs,
-                {"lead over Brownian motion": lead_of_d},
+                {"lead over Brownian motion": leads_of["D"]},
                 {"lead over C": estimate(difference, final["D"], final["C"])},
-                {"probability that a run beats one of C": probability_of_improvement(final["D"], final["C"])},
-                [("lead over C", "lead over Brownian motion")])
-    return [c1, c2, c3, c4]
+                {"among runs that do not stand": estimate(ratio, *moving) if all(map(len, moving)) else exact(np.nan),
+                 "share of runs that stand": {name: estimate(np.mean, rates <= STANDS)
+                                              for name, rates in final.items()}},
+                [("lead over C", "lead over Brownian motion")], testable=testable("C", "D"))
+
+    c6 = judged("C6", (least, "over"), runs,
+                {"over": {name: estimate(_over_other_or_chance, final["D"], final[name], brownian.rate())
+                          for name in nodes}},
+                shown={"C over": {name: estimate(_over_other_or_chance, final["C"], final[name], brownian.rate())
+                                  for name in nodes}}, parts=(), testable=testable("C", "D", *nodes))
+    return [c1, c2, c3, c4, c6]
 
 
 def _over_other_or_chance(rate, other, chance, axis):
@@ -292,9 +318,9 @@ def judge_alternatives(alternatives, thesis, brownian, real_time):
     best = max(thesis, key=lambda name: thesis[name].mean())
     over = {name: estimate(ratio, final, thesis[best]) for name, (final, *_) in alternatives.items()}
     in_time = [name for name, (_, seconds, _) in alternatives.items() if seconds < real_time]
-    leader = max((over[name] for name in in_time), default=exact(0.0))
-    return judged("C5", leader, min(map(len, [*(final for final, *_ in alternatives.values()), *thesis.values()])),
+    seen = {name: f"{name}, which sees {sees}" for name, (_, _, sees) in alternatives.items()}
+    return judged("C5", (most, {seen[name]: over[name] for name in in_time}) if in_time else exact(0.0),
+                  min(map(len, [*(final for final, *_ in alternatives.values()), *thesis.values()])),
                   shown={f"final reward per second of the thesis's best, {best}": estimate(np.mean, thesis[best]),
-                         "over it": {f"{name}, which sees {sees}{'' if name in in_time else ' (too slow)'}": over[name]
-                                     for name, (_, _, sees) in alternatives.items()}},
+                         "over it, but too slow": {seen[name]: over[name] for name in over if name not in in_time}},
                   testable=leads(estimate(difference, thesis[best], brownian)))

@@ -7,9 +7,9 @@
    part that the rule names is, *contradicted* if no part is, and *not as a whole* while parts are open. Otherwise it is
    *undecided*: more runs would tell. Where a verdict rests on several intervals, all hold together with 95 %
    (`companion.thesis.measures`).
-3. An agent has *learned* if it finally earns visibly more than Brownian motion on the same board. A claim that
-   presupposes learning is *not testable* where intervals show that agents have not learned; a claim that agents improve
-   is false there.
+3. An agent has *learned* if it finally earns visibly more than Brownian motion on the same board. A claim that compares
+   agents is *not testable* where intervals show that none of these has learned, and one that measures by an agent's own
+   level, as a ratio or a time does, where that agent has not. A claim that agents lead Brownian motion is false there.
 4. A claim that is contradicted by a proof, or by one example, says so in place of "contradicted".
 5. With fewer than 10 runs per condition, or shorter ones than the claim's, there is *no verdict*.
 
@@ -150,6 +150,11 @@ def learned(result, brownian):
     See `leads`.
     """
     return leads(lead_over_brownian(result, brownian))
+
+
+def any_learned(results, brownian):
+    """Whether any of some agents finally earns more than Brownian motion on the same board, see `leads`."""
+    return any_of([learned(result, brownian) for result in results])
 
 
 def leads(lead):
