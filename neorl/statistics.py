@@ -1,7 +1,8 @@
 """Statistics over runs: a run (a seed) is the unit, an interval is 95 % unless stated otherwise.
 
 Intervals are percentile bootstraps of `scipy.stats`, whose draws are always the same; tolerance bands are pairs of
-order statistics.
+order statistics. Fewer than `FEWEST_RUNS` runs have no interval: of normal samples, percentile intervals of 2, 3 and 4
+runs contain the mean in 49, 74 and 79 % of cases, and of 10 runs in 90 %.
 """
 
 from collections.abc import Callable
@@ -16,6 +17,7 @@ from neorl.experiments.result import Result
 from neorl.worlds.waterworld import WaterWorld
 
 RESAMPLES = 1_000
+FEWEST_RUNS = 10  # that an interval is given for
 MOST_RUNS = 2**31
 TOLERATED = 0.75  # the share of all possible runs that a tolerance band contains
 
@@ -42,7 +44,7 @@ def estimate(statistic: Callable, *samples: ArrayLike) -> Estimate:
     """A statistic of one or several independent samples (each (runs,)), with its bootstrap interval.
 
     The interval is extended to the value where it would not contain it, as resamples may be biased, or rounded
-    otherwise. A sample of a single run has no interval: its bounds are NaN.
+    otherwise. Where a sample has fewer than `FEWEST_RUNS` runs there is no interval: its bounds are NaN.
 
     statistic: takes the samples, and `axis`, the axis of the runs. Raises ValueError for a sample that is empty or not
     finite.
@@ -52,7 +54,7 @@ def estimate(statistic: Callable, *samples: ArrayLike) -> Estimate:
                          f"{len(samples)}")
     checked = [_sample("samples", each) for each in samples]
     value = float(statistic(*checked, axis=-1))
-    if min(map(len, checked)) < 2:
+    if min(map(len, checked)) < FEWEST_RUNS:
         return Estimate(value, np.nan, np.nan)
     low, high = _bootstrapped(checked, statistic)
     return Estimate(value, min(float(low), value), max(float(high), value))
@@ -139,7 +141,7 @@ def mean_band(curves: ArrayLike) -> Any:
     Raises ValueError for curves that are not finite or have no runs.
     """
     checked = _curves(curves)
-    if len(checked) < 2:
+    if len(checked) < FEWEST_RUNS:
         return np.full((2, checked.shape[1]), np.nan)
     return _bootstrapped((checked,), np.mean, axis=0)
 

@@ -13,8 +13,9 @@ from neorl.statistics import (estimate, mean_band, points, probability_of_improv
 
 
 def test_the_probability_of_improvement_counts_pairs():
-    assert probability_of_improvement([3, 4], [1, 2]) == (1.0, 1.0, 1.0)
-    assert probability_of_improvement([1, 2], [3, 4]) == (0.0, 0.0, 0.0)
+    high, low = np.arange(3.0, 13.0), np.arange(-10.0, 0.0)
+    assert probability_of_improvement(high, low) == (1.0, 1.0, 1.0)
+    assert probability_of_improvement(low, high) == (0.0, 0.0, 0.0)
     assert probability_of_improvement([1, 3], [2, 3]).value == pytest.approx(1.5 / 4)  # 3 > 2; 3 = 3 counts half
 
 
@@ -22,8 +23,15 @@ def test_the_interval_of_a_constant_has_no_width():
     assert estimate(np.mean, np.full(10, 2.5)) == (2.5, 2.5, 2.5)
 
 
+def test_fewer_than_ten_runs_have_no_interval():
+    for runs, expected in ((9, True), (10, False)):
+        sample = np.random.default_rng(0).normal(size=runs)
+        assert np.isnan(estimate(np.mean, sample)[1:]).all() == np.isnan(mean_band(sample[:, None])).all() == expected
+    assert np.isnan(estimate(ratio, np.arange(1.0, 21.0), np.ones(9)).low)
+
+
 @pytest.mark.parametrize("statistic, sample", [
-    (np.mean, np.full(2, 3.3834586466165413)), (np.mean, np.full(3, 3.3834586466165413)),
+    (np.mean, np.full(10, 3.3834586466165413)), (np.mean, np.full(11, 3.3834586466165413)),
     (lambda x, axis: -x.mean(axis) ** 2, np.arange(-10.0, 11.0))])
 def test_an_interval_contains_its_value_though_resamples_are_rounded_otherwise_or_biased(statistic, sample):
     value, low, high = estimate(statistic, sample)

@@ -8,13 +8,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.transforms import offset_copy
 from numpy.typing import ArrayLike
 
 from neorl.common import checks
 from neorl.drawing.style import INK, axes_or_new, by_name, looks, name_ends, numbers
 from neorl.experiments.result import Result
-from neorl.statistics import Estimate, binned_rate, mean_band, tolerance_band
+from neorl.statistics import FEWEST_RUNS, Estimate, binned_rate, mean_band, tolerance_band
 
 POINTS = 400  # per curve; more would not be visible
 APART = 3  # points between intervals at one x
@@ -22,7 +23,7 @@ APART = 3  # points between intervals at one x
 
 def draw_accumulated(results: Mapping[str, Result], control: Mapping[str, Result] | None = None,
                      ax: Axes | None = None) -> Axes:
-    """Draw accumulated reward over steps with its tolerance band.
+    """Draw accumulated reward over steps with its tolerance band, or of fewer than ten runs each run.
 
     results: {name: `neorl.Result`}. control: another such dict, drawn in grey.
     Raises ValueError for anything else, or for an empty dict.
@@ -41,7 +42,7 @@ def draw_accumulated(results: Mapping[str, Result], control: Mapping[str, Result
 
 
 def draw_proficiency(results: Mapping[str, Result], points: int = 50, ax: Axes | None = None) -> Axes:
-    """Draw mean reward per second over the run with the 95 % interval of the mean.
+    """Draw mean reward per second over the run with the 95 % interval of the mean, or of fewer than ten runs each run.
 
     results: {name: `neorl.Result`}. points: per curve, integer ≥ 1. Raises ValueError for anything else.
 
@@ -76,7 +77,7 @@ def _checked(results, what="results"):
 
 def draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike], xlabel: str = "", ylabel: str = "",
                 ax: Axes | None = None) -> Axes:
-    """Draw means over runs with their 95 % intervals.
+    """Draw means over runs with their 95 % intervals, or where there are fewer than ten, each run.
 
     xs: (points,), from 0 on. curves: {name: (runs, points)}; NaN leaves a gap.
     xlabel, ylabel: of the axes.
@@ -96,7 +97,7 @@ def draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike], xlabel: str = ""
 
 
 def _draw(curves, xlabel, ylabel, styles, ax, band=mean_band, opacity=0.2):
-    """Axes with the means of curves, [(name, xs (points,), ys (runs, points))], and their bands."""
+    """Axes with the means of curves, [(name, xs (points,), ys (runs, points))], and their spread."""
     axes, ends = axes_or_new(ax), []
     for (name, xs, curve), (colour, dashes) in zip(curves, styles):
         mean = curve.mean(axis=0)
@@ -104,12 +105,20 @@ def _draw(curves, xlabel, ylabel, styles, ax, band=mean_band, opacity=0.2):
         if not len(numbers):
             raise ValueError(f"curves[{name!r}] must have a finite number or more, but has none")
         axes.plot(xs, mean, color=colour, linestyle=dashes)
-        if len(curve) > 1:
-            axes.fill_between(xs, *band(curve), color=colour, alpha=opacity, linewidth=0)
+        add_spread(axes, xs, curve, colour, band, opacity)
         ends.append((numbers[-1], name, colour))
     axes.set(xlabel=xlabel, ylabel=ylabel, xlim=(0, max(xs[-1] for _, xs, _ in curves)))
     name_ends(axes, ends)
     return axes
+
+
+def add_spread(axes, xs, curve, colour, band=mean_band, opacity=0.2):
+    """Add what runs say of a mean: the band of curve (runs, points), or of fewer than ten runs each as a thin line."""
+    if len(curve) >= FEWEST_RUNS:
+        axes.fill_between(xs, *band(curve), color=colour, alpha=opacity, linewidth=0)
+    elif len(curve) > 1:
+        axes.add_collection(LineCollection([np.column_stack([xs, run]) for run in curve], colors=[colour],
+                                           linewidths=0.7, alpha=0.5))
 
 
 def draw_sweep(xs: ArrayLike, estimates_by_name: Mapping[str, Sequence[Estimate]], xlabel: str = "",

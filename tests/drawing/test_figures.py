@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
+from matplotlib.collections import LineCollection, PolyCollection
 
 from companion import paper_c
+from companion.page.panels import draw_means
 from companion.shared.smoothing import draw_smoothed, low_passed
 from neorl import (Condition, NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells,
                    simulate)
@@ -112,3 +114,13 @@ def test_desires_are_drawn_where_they_land_or_towards_it_if_that_is_far_away():
     assert near.get_color() == drawing.GREEN
     far = axes.texts[-1].xy
     np.testing.assert_allclose(far, [1.06, start[1] + 3 * (1.06 - start[0]) / 9])
+
+
+@pytest.mark.parametrize("runs, drawn", [(9, LineCollection), (10, PolyCollection)])
+def test_an_interval_of_fewer_than_ten_runs_is_never_drawn(runs, drawn):
+    curves = np.random.default_rng(0).random((runs, 5))
+    for draw in (lambda: drawing.draw_curves(np.arange(5), {"luck": curves}),
+                 lambda: draw_means({"luck": (np.arange(5), curves)}, "", "")):
+        draw()
+        (spread,) = plt.gca().collections
+        assert isinstance(spread, drawn) and len(spread.get_paths()) == (runs if runs < 10 else 1)

@@ -9,9 +9,8 @@ from companion.chapter_2.tuning import egocentric
 from companion.shared.grid_figures import draw_grid, draw_policy, new_grids
 from companion.page.panels import add_arrow, add_curves
 from neorl.drawing.boards import new_boards
-from neorl.drawing.curves import draw_curves
+from neorl.drawing.curves import add_spread, draw_curves
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, letters, name_ends, width_of_figures
-from neorl.statistics import mean_band
 
 LOW_PANEL = 0.17  # the room for a curve's name, as a share of the height of a low panel
 NAMES = {"throughout": "throughout", "never": "never", "delayed": "from day {}"}
@@ -39,7 +38,7 @@ def draw_plan(maze):
 
 
 def draw_errors(by_learner, first_reward):
-    """Errors per day of the three groups, one panel per learner: {learner: {group: `Record`}}, with 95 % intervals."""
+    """Errors per day of the three groups, one panel per learner: {learner: {group: `Record`}}."""
     width = width_of_figures()
     figure, grid = plt.subplots(len(by_learner), sharex=True, sharey=True, squeeze=False,
                                 figsize=(width, 1.9 * len(by_learner)))
@@ -49,7 +48,7 @@ def draw_errors(by_learner, first_reward):
         for (group, record), colour in zip(groups.items(), CURVES):
             mean = record.errors.mean(axis=0)
             axes.plot(days, mean, color=colour)
-            axes.fill_between(days, *mean_band(record.errors), color=colour, alpha=0.25, linewidth=0)
+            add_spread(axes, days, record.errors, colour)
             ends.append((mean[-1], NAMES[group].format(first_reward), colour))
         axes.axvline(first_reward, color=INK, linewidth=1, linestyle=":")
         axes.set(ylabel="errors per day", title=learner, ylim=(-3, None), xlim=(1, days[-1]))

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.ticker import MultipleLocator
 
+from neorl.drawing.curves import add_spread
 from neorl.drawing.style import CURVES, INK, SMALL, letters, name_ends
 from neorl.statistics import mean_band
 
@@ -12,7 +13,7 @@ UNDER_WHITE = "#5a5a5a"  # the background of white letters, which need more cont
 
 
 def add_curves(axes, xs, curves, colours=CURVES, line=0.075, linewidth=1.8, **settings):
-    """Draw curves into a panel, {name: (points,)}, or means with their 95 % intervals, {name: (runs, points)}.
+    """Draw curves into a panel, {name: (points,)}, or means over runs with their spread, {name: (runs, points)}.
 
     line: the room for a name, see `name_ends`. settings: of the axes.
     """
@@ -21,14 +22,14 @@ def add_curves(axes, xs, curves, colours=CURVES, line=0.075, linewidth=1.8, **se
         mean = curve if curve.ndim == 1 else curve.mean(axis=0)
         axes.plot(xs, mean, color=colour, linewidth=linewidth)
         if curve.ndim == 2:
-            axes.fill_between(xs, *mean_band(curve), color=colour, alpha=0.2, linewidth=0)
+            add_spread(axes, xs, curve, colour)
         ends.append((mean[np.isfinite(mean)][-1], name, colour))
     axes.set(**settings)
     name_ends(axes, ends, line)
 
 
 def draw_means(series, xlabel, ylabel, logs="", marks=False, guides=()):
-    """Means over runs with their 95 % intervals, of series {name: (xs (points,), values (runs, points))}.
+    """Means over runs with their spread, of series {name: (xs (points,), values (runs, points))}.
 
     logs: the logarithmic axes, a string of "x" and "y". guides: (xs, ys) of thin lines for comparison.
     """
@@ -40,12 +41,10 @@ def draw_means(series, xlabel, ylabel, logs="", marks=False, guides=()):
     for (name, (xs, values)), colour in zip(series.items(), CURVES):
         at, mean = shown["x"](xs), shown["y"](values.mean(axis=0))
         axes.plot(at, mean, color=colour, linewidth=0.8 if marks else 1.8, marker="o" if marks else "", markersize=4)
-        if len(values) > 1:
-            low, high = shown["y"](mean_band(values))
-            if marks:
-                axes.vlines(at, low, high, color=colour)
-            else:
-                axes.fill_between(at, low, high, color=colour, alpha=0.2, linewidth=0)
+        if marks:
+            axes.vlines(at, *shown["y"](mean_band(values)), color=colour)
+        else:
+            add_spread(axes, at, shown["y"](values), colour, lambda _: shown["y"](mean_band(values)))
         ends.append((at[-1], mean[-1], name, colour))
     axes.set(xlabel=xlabel, ylabel=ylabel)
     for axis in logs:

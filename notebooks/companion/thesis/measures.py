@@ -12,7 +12,7 @@
 import numpy as np
 import scipy
 
-from neorl.statistics import RESAMPLES, Estimate, binned_rate, estimate, quotient
+from neorl.statistics import FEWEST_RUNS, RESAMPLES, Estimate, binned_rate, estimate, quotient
 
 POINTS = 400  # of the curve whose crossing counts
 EARLY, FINAL = (0.0, 0.1), (0.8, 1.0)
@@ -122,7 +122,7 @@ def _resampled(statistic, *results):
     """The `Time` of a statistic of the runs chosen from results, by bootstrap."""
     runs = [np.arange(result.runs) for result in results]
     value = statistic(*runs, axis=-1)
-    if min(map(len, runs)) < 2:
+    if min(map(len, runs)) < FEWEST_RUNS:
         return Time(value, np.array([np.nan]))
     found = scipy.stats.bootstrap(runs, statistic, n_resamples=RESAMPLES, vectorized=True, axis=-1, method="percentile",
                                   rng=np.random.default_rng(0))

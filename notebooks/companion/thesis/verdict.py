@@ -21,9 +21,9 @@ from dataclasses import dataclass
 
 from companion.thesis.measures import FINAL, widened
 from companion.thesis.statements import STATEMENTS, VISIBLE, Bounds
-from neorl.statistics import Estimate, difference, estimate
+from neorl.statistics import FEWEST_RUNS, Estimate, difference, estimate
 
-RUNS_FOR_A_VERDICT = 10
+RUNS_FOR_A_VERDICT = FEWEST_RUNS
 AFTER_TURN = (0.5, 0.525)  # of runs that change at half-time
 VERDICTS = ("reproduced", "partly", "contradicted", "not as a whole", "undecided", "not testable", "refuted by proof",
             "counter-example found", "no verdict")
