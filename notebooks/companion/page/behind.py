@@ -1,0 +1,107 @@
+"""The record behind a figure: what the recorded runs of the same agents earned, pale, below the few runs of a page.
+
+1. `curves.json` has the mean reward per second of each recorded condition in `BINS` parts of its runs, with its 95 %
+   interval, and that of the whole run and of its last fifth. `book/computing/record.py` computes it.
+2. Where a page has fewer than `FEWEST_RUNS` runs of a condition that the record has, the record is drawn, and named
+   with its number of runs; the page's own runs go over it. From there on a page's own intervals stand for themselves.
+"""
+
+import json
+from functools import cache
+from importlib import resources
+from typing import NamedTuple
+
+import numpy as np
+
+from companion import thesis
+from companion.page import judging
+from companion.thesis.reading import LENGTHS, READINGS, conditions
+from neorl.drawing.style import INK, SMALL, looks
+from neorl.statistics import FEWEST_RUNS, Estimate
+
+CURVES = resources.files(thesis) / "curves.json"
+BINS = 50
+PALE = 0.22  # opacity
+
+
+class Recorded(NamedTuple):
+    """What recorded runs of a condition earned per second."""
+
+    runs: int
+    minutes: float  # simulated, of a run
+    curve: np.ndarray  # (3, BINS): mean and the ends of its interval
+    whole: Estimate
+    final: Estimate
+
+
+def recorded(result):
+    """What the record has of a `Result`'s agents in its world, as `Recorded`, or None if it has nothing."""
+    key = next((each for each, condition in _known().items() if judging.same(result, condition)), None)
+    found = key and _curves()[key[0]].get(key[1])
+    return found and Recorded(found["runs"], found["minutes"], np.array(found["curve"]), Estimate(*found["whole"]),
+                              Estimate(*found["final"]))
+
+
+def words(key):
+    """The name of a condition in `curves.json`. key: see `companion.thesis.reading.conditions`."""
+    return key if isinstance(key, str) else " ".join(map(str, key))
+
+
+def few(results):
+    """What the record has of those of some results that have too few runs for intervals: {name: `Recorded`}."""
+    found = {name: recorded(result) for name, result in results.items() if result.runs < FEWEST_RUNS}
+    return {name: each for name, each in found.items() if each}
+
+
+def add_recorded_rates(axes, results):
+    """Draw the recorded reward per second behind curves of `draw_proficiency`, and return the axes.
+
+    results: {name: `Result`}, as drawn.
+    """
+    known, end = few(results), axes.get_xlim()
+    for name, (colour, _) in zip(results, looks(len(results))):
+        if name in known:
+            runs = known[name]
+            xs = (np.arange(BINS) + 0.5) / BINS * runs.minutes
+            mean, low, high = runs.curve
+            axes.fill_between(xs, low, high, color=colour, alpha=PALE, linewidth=0, zorder=1)
+            axes.plot(xs, mean, color=colour, alpha=2 * PALE, linewidth=4, zorder=1)
+    axes.set_xlim(end)
+    return _named(axes, known)
+
+
+def add_recorded_levels(axes, xs, results, share="final", colour=INK):
+    """Draw recorded levels behind the points of a sweep or of rows, and return the axes.
+
+    xs: where each is; or, for rows, the rows from the top as a `range`. results: {name: `Result`}. share: "final" or
+    "whole" run.
+    """
+    known = few(results)
+    for at, name in zip(xs, results):
+        if name in known:
+            value, low, high = getattr(known[name], share)
+            line, point = ((axes.hlines, (value, at)) if isinstance(xs, range) else (axes.vlines, (at, value)))
+            line(at, low, high, color=colour, alpha=PALE, linewidth=8, zorder=1)
+            axes.plot(*point, color=colour, alpha=2 * PALE, marker="o", markersize=9, zorder=1)
+    return _named(axes, known)
+
+
+def _named(axes, known):
+    if known:
+        numbers = sorted({runs.runs for runs in known.values()})
+        some = " to ".join(f"{number:,}" for number in dict.fromkeys((numbers[0], numbers[-1])))
+        axes.annotate(f"pale: the record, {some} runs", (0, 1), xycoords="axes fraction", xytext=(0, 4),
+                      textcoords="offset points", fontsize=SMALL, color=INK, va="bottom")
+    return axes
+
+
+@cache
+def _curves():
+    return json.loads(CURVES.read_text("utf-8"))
+
+
+@cache
+def _known():
+    """The conditions that the record has curves of: {(reading, name): `Condition`}."""
+    return {(name, words(key)): condition for name, reading in READINGS.items()
+            for key, condition in conditions(reading, LENGTHS["B"], 1).items() if words(key) in _curves()[name]}

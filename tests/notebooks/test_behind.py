@@ -1,0 +1,54 @@
+"""The record behind figures of few runs."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from companion.page import behind
+from companion.thesis.reading import READINGS, conditions
+from neorl import Result, drawing
+
+PAPER_C = conditions(READINGS["calibrated"], 3_000, 3, groups=["networks"])
+
+
+def result(key="C", runs=3, **changes):
+    condition = replace(PAPER_C["network", key], runs=runs, **changes)
+    rewards = np.full((runs, 300), 0.02, np.float32)
+    return Result(condition, rewards, np.zeros((*rewards.shape, 2), np.int16))
+
+
+@pytest.fixture(autouse=True)
+def curves(monkeypatch):
+    rising = np.linspace(0, 0.3, behind.BINS)
+    found = {"runs": 1_000, "minutes": 100, "curve": [rising, rising - 0.1, rising + 0.1],
+             "whole": [0.15, 0.14, 0.16], "final": [0.29, 0.28, 0.30]}
+    behind._known.cache_clear()
+    monkeypatch.setattr(behind, "_curves", lambda: {"calibrated": {"network C": found}, "letter": {}})
+    yield
+    behind._known.cache_clear()
+
+
+def test_the_record_knows_a_result_by_its_agents_and_world_however_long_it_ran():
+    assert behind.recorded(result()).runs == behind.recorded(result(runs=12, seed=5)).runs == 1_000
+    other = replace(PAPER_C["network", "C"].world, n_creeps=4)
+    assert behind.recorded(result("D")) is behind.recorded(result(world=other)) is None
+
+
+def test_few_runs_have_the_record_behind_them_and_many_stand_for_themselves():
+    results = {"C": result(), "D": result("D")}
+    axes = behind.add_recorded_rates(drawing.draw_proficiency(results, points=10), results)
+    (pale,) = [line for line in axes.lines if len(line.get_xdata()) == behind.BINS]
+    np.testing.assert_allclose(pale.get_ydata(), np.linspace(0, 0.3, behind.BINS))
+    assert [each.get_text() for each in axes.texts if "record" in each.get_text()] == ["pale: the record, 1,000 runs"]
+    assert axes.get_xlim() == (0, 1)  # the page's own minutes
+    many = {"C": result(runs=10)}
+    assert len(behind.add_recorded_rates(drawing.draw_proficiency(many, points=10), many).lines) == 2
+
+
+@pytest.mark.parametrize("xs, value", [([7], (7, 0.29)), (range(1), (0.29, 0))])
+def test_levels_stand_behind_points_and_behind_rows(xs, value):
+    axes = behind.add_recorded_levels(plt.figure().add_subplot(), xs, {"C": result()})
+    (point,) = axes.lines
+    assert (point.get_xdata()[0], point.get_ydata()[0]) == value and len(axes.collections) == 1
