@@ -2,7 +2,8 @@
 
 1. The parameters show the values used for the page, and the cell that papermill injects is left out.
 2. The caption of a figure is a Markdown cell below it, tagged as such, so that every reader of the notebook sees it;
-   the book shows it under the figure's number, and answers its question by what is recorded on the claims it shows.
+   the book shows it under the figure's number, answers its question by what is recorded on the claims it shows, and
+   ends it with what the figure itself shows (`companion.page.captions`).
 3. A fold of code and output bears the title in its first line, a comment, which JupyterLab shows in its place.
 """
 
@@ -19,7 +20,8 @@ def of_page(cells, values):
     for cell in cells:
         if CAPTION in tags(cell):
             figure = kept[-1].metadata["mystnb"]["figure"]
-            figure["caption"] = answered(caption_of(cell), findings.get(figure["name"]))
+            caption = answered(caption_of(cell), findings.get(figure["name"]))
+            figure["caption"] = " ".join([caption, *found_in(kept[-1])])
         elif INJECTED not in tags(cell):
             kept.append(cell)
         if PARAMETERS in tags(cell):
@@ -39,6 +41,13 @@ def findings_in(cells):
     """What is recorded on the claims that figures show, {label of a figure: words}, as the answer of a page has it."""
     outputs = (output.get("metadata", {}).get("text/html", {}) for cell in cells for output in cell.get("outputs", ()))
     return next((each["findings"] for each in outputs if "findings" in each), {})
+
+
+def found_in(cell):
+    """What the figure of a cell shows, in words, a list; the output that says so under JupyterLab is left out."""
+    of_outputs = [output.get("metadata", {}).get("text/html", {}).get("found") for output in cell.get("outputs", ())]
+    cell.outputs = [output for output, words in zip(cell.get("outputs", ()), of_outputs) if not words]
+    return [words for words in of_outputs if words]
 
 
 def answered(caption, finding):

@@ -112,6 +112,7 @@ def draw_together(several):
     axes = draw_sums(sums, [*looks(len(alone) + 1), (INK, "-")])
     if levels(several):
         mark_levels(axes, levels(several))
+    return axes
 
 
 def draw_elements(axes, nres_map, places, valences, values):

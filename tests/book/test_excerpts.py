@@ -10,6 +10,7 @@ from computing import excerpts
 import nbformat
 import numpy as np
 import pytest
+from companion.page import found
 from computing.cells import LABEL, of_page
 from computing.excerpts import without_ground
 from matplotlib import pyplot as plt
@@ -119,8 +120,12 @@ def test_captions_and_titles_of_folds_are_the_book_s_and_cells_of_papermill_are_
     caption = nbformat.v4.new_markdown_cell(f"{LABEL}Rewards\nof *runs*.", metadata={"tags": ["caption"]})
     parameters = nbformat.v4.new_code_cell("runs: int = 4  # of each", metadata={"tags": ["parameters"]})
     injected = nbformat.v4.new_code_cell("runs = 2", metadata={"tags": ["injected-parameters"]})
+    shown = found("Here", {"N7": 0.1, "all": 0.6})
+    figure.outputs = [nbformat.v4.new_output("display_data", {"text/html": shown.data},
+                                             metadata={"text/html": shown.metadata})]
     parameters, figure = of_page([parameters, injected, figure, caption], {"runs": 2})
     assert (parameters.source, figure.source) == ("runs: int = 2  # of each", "draw()")
     assert figure.metadata["mystnb"] == {
-        "figure": {"name": "fig-one", "caption": "Rewards of *runs*."}, "code_prompt_show": "Rewards, run by run",
-        "code_prompt_hide": "Rewards, run by run"}
+        "figure": {"name": "fig-one", "caption": "Rewards of *runs*. Here: N7 0.10 and all 0.60."},
+        "code_prompt_show": "Rewards, run by run", "code_prompt_hide": "Rewards, run by run"}
+    assert not figure.outputs  # which says the same below the figure

@@ -37,9 +37,14 @@ class Recorded(NamedTuple):
 def recorded(result):
     """What the record has of a `Result`'s agents in its world, as `Recorded`, or None if it has nothing."""
     key = next((each for each, condition in _known().items() if judging.same(result, condition)), None)
-    found = key and _curves()[key[0]].get(key[1])
-    return found and Recorded(found["runs"], found["minutes"], np.array(found["curve"]), Estimate(*found["whole"]),
-                              Estimate(*found["final"]))
+    return key and recorded_runs(*key)
+
+
+def recorded_runs(reading, name):
+    """What the record has of a condition under a reading, by its name in `curves.json`: `Recorded`."""
+    found = _curves()[reading][name]
+    return Recorded(found["runs"], found["minutes"], np.array(found["curve"]), Estimate(*found["whole"]),
+                    Estimate(*found["final"]))
 
 
 def words(key):

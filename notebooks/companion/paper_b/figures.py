@@ -38,8 +38,8 @@ FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}
 
 def draw_final_levels(levels, of_paper):
     """Draw final rewards per second, {agent: `Estimate`}, and the thesis's own beside those of the paper's agents."""
-    draw_against_thesis({LABELS[agent]: THESIS_LEVELS[agent] if of_paper else None for agent in levels},
-                        {LABELS[agent]: level for agent, level in levels.items()}, "final reward per second")
+    return draw_against_thesis({LABELS[agent]: THESIS_LEVELS[agent] if of_paper else None for agent in levels},
+                               {LABELS[agent]: level for agent, level in levels.items()}, "final reward per second")
 
 
 def paces(paced, of_paper):
