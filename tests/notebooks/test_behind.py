@@ -49,6 +49,8 @@ def test_few_runs_have_the_record_behind_them_and_many_stand_for_themselves():
 
 @pytest.mark.parametrize("xs, value", [([7], (7, 0.29)), (range(1), (0.29, 0))])
 def test_levels_stand_behind_points_and_behind_rows(xs, value):
-    axes = behind.add_recorded_levels(plt.figure().add_subplot(), xs, {"C": result()})
+    axes = plt.figure().add_subplot(xlim=(0, 0.1), ylim=(0, 0.1))
+    behind.add_recorded_levels(axes, xs, {"C": result()})
+    assert (axes.get_xlim() if isinstance(xs, range) else axes.get_ylim())[1] > 0.3  # which was too narrow
     (point,) = axes.lines
     assert (point.get_xdata()[0], point.get_ydata()[0]) == value and len(axes.collections) == 1

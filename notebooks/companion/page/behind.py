@@ -81,13 +81,19 @@ def add_recorded_levels(axes, xs, results, share="final", colour=INK):
     xs: where each is; or, for rows, the rows from the top as a `range`. results: {name: `Result`}. share: "final" or
     "whole" run.
     """
-    known = few(results)
+    known, rows, reached = few(results), isinstance(xs, range), []
     for at, name in zip(xs, results):
         if name in known:
             value, low, high = getattr(known[name], share)
-            line, point = ((axes.hlines, (value, at)) if isinstance(xs, range) else (axes.vlines, (at, value)))
-            line(at, low, high, color=colour, alpha=PALE, linewidth=8, zorder=1)
+            (axes.hlines if rows else axes.vlines)(at, low, high, color=colour, alpha=PALE, linewidth=8, zorder=1)
+            point = (value, at) if rows else (at, value)
             axes.plot(*point, color=colour, alpha=2 * PALE, marker="o", markersize=9, zorder=1)
+            reached += [low, high]
+    if reached:
+        begin, end = axes.get_xlim() if rows else axes.get_ylim()
+        margin = 0.04 * (end - begin)
+        limits = min(begin, min(reached) - margin), max(end, max(reached) + margin)
+        axes.set(**{"xlim" if rows else "ylim": limits})
     return _named(axes, known)
 
 
