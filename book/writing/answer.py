@@ -5,20 +5,26 @@
 2. Claims in a few words, and why some fail, are with their statements; all else is computed.
 """
 
+import json
 
-from companion.page import opening, recorded, report
+from companion.page import counts, opening, recorded, report
 from companion.page.wording import table
 from companion.study import sensitivity
 from companion.study.calibration_targets import CLAIMS as FITTED
 from companion.thesis.pins import PINS
 from companion.thesis.priors import WITHIN
 from companion.thesis.reading import TO_THE_LETTER, Reading
-from companion.thesis.statements import AGENTS, APART, CLAIMS, STATEMENTS
+from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
 from companion.thesis.verdict import FAILED
 
+from writing.rules import BEFORE
+
 NOT_FITTED = tuple(name for name in AGENTS if name not in FITTED)
-BLOCKS = {"Used to choose the calibrated reading": FITTED, "Not used": NOT_FITTED,
-          "By proof or counting, about our code, or a report": APART}
+INDEPENDENT = "A10", "T1"  # of these, whose rules read no condition that the search ran; all others share some
+BLOCKS = {f"{counts.KINDS['agents']}, by which the calibrated reading was chosen": FITTED,
+          f"{counts.KINDS['agents']}, not used for that": NOT_FITTED,
+          **counts.by_kind(name for name in STATEMENTS if name not in AGENTS)}
+USUAL = 100  # runs, or more
 DECIDING = 5  # choices that are listed
 PULLING = 5  # pairs of claims
 NEVER = "None of the readings drawn evenly within the text agrees."
@@ -26,14 +32,33 @@ REPRODUCED = "Claims", "Reproduced to the letter", "Reproduced calibrated"
 
 
 def headline(record):
-    """What is reproduced, to the letter and calibrated, in three sentences. record: see `report.record`."""
+    """What is reproduced of the claims about agents, under both readings, in a few sentences. record: of `report`."""
     letter, calibrated = (_reproduced(record[part], AGENTS) for part in ("letter", "claims"))
     return (f"The thesis makes {len(AGENTS)} claims about its agents. With every gap of its text filled by the "
             f"plainest choice (“to the letter”), {letter} of them {'is' if letter == 1 else 'are'} reproduced; with "
             f"{_departing()} of the gaps filled otherwise, as fits best (“calibrated”), {calibrated} are: "
             f"{_reproduced(record['claims'], FITTED)} of the {len(FITTED)} by which these choices were made, and "
-            f"{_reproduced(record['claims'], NOT_FITTED)} of the other {len(NOT_FITTED)}. Each condition has "
-            f"{runs(record)} runs.")
+            f"{_reproduced(record['claims'], NOT_FITTED)} of the other {len(NOT_FITTED)}. Of these others only "
+            f"{_listed(INDEPENDENT)} rest on conditions that took no part in the choice "
+            f"({_reproduced(record['claims'], INDEPENDENT)} of {len(INDEPENDENT)}). {versions(record)} {runs(record)}")
+
+
+def versions(record):
+    """What the rules before their last change reproduced, and the range over both versions, in two sentences."""
+    letter, calibrated = (_versions(record, part) for part in ("letter", "claims"))
+    return (f"By the rules before their last change it was {letter[0]} to the letter and {calibrated[0]} calibrated. "
+            f"An honest range is {letter[1]} to {letter[2]}, and {calibrated[1]} to {calibrated[2]}: from the claims "
+            "that every version of their rule reproduces to those that any does, or that are undecided now.")
+
+
+def _versions(record, part):
+    """How many claims about agents are reproduced by the former rules, by all versions, and by any or perhaps."""
+    former = {name: (each["present runs"] or each["earlier runs"])["verdict"]
+              for name, each in json.loads(BEFORE.read_text(encoding="utf-8"))[part].items()}
+    found = [(former.get(name), record[part].get(name, {}).get("verdict")) for name in AGENTS]
+    return (sum(before == "reproduced" for before, _ in found),
+            sum({*each} - {None} == {"reproduced"} for each in found),
+            sum("reproduced" in each or each[1] == "undecided" for each in found))
 
 
 def turned(record):
@@ -43,9 +68,15 @@ def turned(record):
 
 
 def runs(record):
-    """The number of runs behind claims about agents that are run, "10" or "100 to 1,000", "0" if none was judged."""
-    numbers = {record["claims"][name]["runs"] for name in AGENTS if name in record["claims"] and name != "A10"} or {0}
-    return " to ".join(f"{number:,}" for number in sorted({min(numbers), max(numbers)}))
+    """How many runs claims rest on, and which on fewer than usual, in a sentence; "" if none was judged."""
+    fewer = {}
+    for name, found in record["claims"].items():
+        fewer.setdefault(found["runs"], []).append(name)
+    usual = [fewer.pop(number) and number for number in sorted(fewer) if number >= USUAL]
+    many = " to ".join(f"{number:,}" for number in sorted({*usual[:1], *usual[-1:]}))
+    parts = [f"Claims rest on {many} runs of each condition, or more"] if usual else []
+    parts += [f"{_listed(names)} on {number}" for number, names in sorted(fewer.items())]
+    return f"{'; '.join(parts)}." if parts else ""
 
 
 def dependence(record, found):
@@ -79,8 +110,8 @@ def rate_of_paper_a(record):
 
 def reproduced(record):
     """How many claims of each block are reproduced, of those that a reading judges: rows below `REPRODUCED`."""
-    return [[title, *(f"{_reproduced(record[part], names)} of {sum(name in record[part] for name in names)}"
-                      for part in ("letter", "claims"))] for title, names in BLOCKS.items()]
+    return [[title, *("{} of {}".format(*counts.reproduced(record[part], names)) for part in ("letter", "claims"))]
+            for title, names in BLOCKS.items()]
 
 
 def summary(record):
@@ -111,7 +142,7 @@ def fails(record):
                                            for found in (record["claims"], record["letter"] or record["claims"]))]
     always = [name for name in CLAIMS if report.verdict(record, name) in FAILED
               and (STATEMENTS[name].why or name in both and _share(record, name) == 0)]
-    lines = [f"- **{_link(name)}** {STATEMENTS[name].text}. Thesis: {STATEMENTS[name].thesis}; here "
+    lines = [f"- **{_link(name)}** {STATEMENTS[name].text}. {recorded.expected(name)}; here "
              f"{report.number(record['claims'][name])}. "
              f"{recorded.said(record['claims'][name], STATEMENTS[name].why or NEVER)}" for name in always]
     others = [_link(name) for name in both if name not in always]
@@ -167,7 +198,8 @@ def _share(record, name):
 
 
 def _reproduced(found, names):
-    return sum(found[name]["verdict"] == "reproduced" for name in names if name in found)
+    count, _ = counts.reproduced(found, names)
+    return count
 
 
 def _link(name):

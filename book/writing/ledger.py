@@ -9,20 +9,18 @@
 
 from html import escape
 
-from companion.page import marks, recorded, report
+from companion.page import counts, marks, recorded, report
 from companion.page.opening import anchor
 from companion.study import sensitivity
-from companion.thesis.statements import AGENTS, DEMONSTRATIONS, STATEMENTS
+from companion.thesis.statements import AGENTS, STATEMENTS
 
 from writing import curves, levels
-from writing.answer import APART, BLOCKS, dependence, headline, sections, summary, turned
+from writing.answer import BLOCKS, dependence, headline, sections, summary, turned
 
 CAPTION = ("Each claim has a scale of its own, so that all bands lie below each other. Points are our numbers, with "
            "95\u00a0% intervals; one beyond its line is an arrow. A claim leads to its line below.")
 CHAPTERS = {"A": "Paper A: maps of one space", "B": "Paper B: modalities", "C": "Paper C: networks of desires",
             "T": "The thesis as a whole"}
-KINDS = {"proof": "Counted apart: decided by proof", "report": "Counted apart: the author’s report",
-         "counting": "Counted apart: decided by counting", "code": "Counted apart: this book’s code"}
 
 
 def page(record):
@@ -35,9 +33,8 @@ def page(record):
              dependence(record, found), *sections(record, found),
              levels.section(record, found), "## Claim by claim"]
     groups = {title: [name for name in AGENTS if name[0] == letter] for letter, title in CHAPTERS.items()}
-    groups |= {title: [name for name in APART if STATEMENTS[name].kind == kind] for kind, title in KINDS.items()}
-    for title, names in (groups | {"Beside the claims: demonstrations": DEMONSTRATIONS}).items():
-        parts += [f"### {title}", *(_claim(record, name, found) for name in names)]
+    for title, names in (groups | counts.by_kind(name for name in STATEMENTS if name not in AGENTS)).items():
+        parts += [f"### {title}", recorded.boards(names), *(_claim(record, name, found) for name in names)]
     return "\n\n".join(filter(None, parts)) + "\n"
 
 
@@ -91,7 +88,7 @@ def runs_needed(name, found):
 def _deciding(name, found):
     """The number that decides a verdict, with what it is and what the claim needs, and the thesis's, as text."""
     statement = STATEMENTS[name]
-    thesis = f"Thesis: {statement.thesis}"
+    thesis = recorded.expected(name)
     if not found:
         return f"{statement.statistic}. {thesis}"
     deciding = recorded.decisive(name, found)

@@ -29,8 +29,8 @@ def test_the_verdicts_of_both_readings_are_written_between_the_marks_and_nothing
     found = {"here": [0.49, 0.48, 0.51], "runs": 20, "verdict": "reproduced", "numbers": {}}
     new = readme.found({"claims": {"B3": found, "B5": found | {"verdict": "refuted by proof"}},
                         "letter": {"B3": found | {"verdict": "partly"}}})
-    assert new.startswith("The thesis makes") and new.partition("\n")[0].endswith("Each condition has 20 runs.")
-    assert "| Used to choose the calibrated reading | 0 of 1 | 1 of 1 |\n" in new
+    assert new.startswith("The thesis makes") and new.partition("\n")[0].endswith(" B3 and B5 on 20.")
+    assert "| Claims about agents, by which the calibrated reading was chosen | 0 of 1 | 1 of 1 |\n" in new
     assert readme.BETWEEN.sub(lambda _: new, text) == (
         f"before\n<!-- claims: make readme -->\n{new}<!-- end of claims -->\nafter | \\1\n")
 

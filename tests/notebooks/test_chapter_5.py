@@ -9,9 +9,10 @@ from page_cells import LAST, executed
 
 import neorl
 from companion.chapter_5 import conclusions, figures, trials
+from companion.page import counts, report
 from companion.page.report import CLAIMS_OF
 from companion.thesis.reading import PRIMES, READINGS, conditions
-from companion.thesis.statements import AGENTS, CLAIMS, DEMONSTRATIONS, STATEMENTS
+from companion.thesis.statements import AGENTS, DEMONSTRATIONS, STATEMENTS
 from neorl import WaterWorld
 
 
@@ -69,7 +70,8 @@ def test_a_claim_is_judged_only_if_what_was_run_for_it_is_the_papers(change, wit
 
 def test_every_claim_belongs_to_one_group():
     assert sorted(name for names in conclusions.GROUPS.values() for name in names) == sorted(STATEMENTS)
-    assert conclusions.GROUPS["Counted apart"] == tuple(name for name in CLAIMS if name not in AGENTS)
+    assert {name for title in counts.KINDS.values() for name in conclusions.GROUPS.get(title, ())} == (
+        {*STATEMENTS} - {*AGENTS})
     for names, group in zip(conclusions.CARRYING.values(), conclusions.GROUPS.values()):
         assert {*names} <= {*group}
 
@@ -90,6 +92,14 @@ def test_the_answer_has_the_claims_of_both_conclusions_under_both_readings():
     assert re.findall(r"#claim-\w+\" [^>]*>(\w+)</a>", answer) == [
         *conclusions.CARRYING["Superposition"], *conclusions.CARRYING["Learning apart from behaviour"], "T2", "T6",
         *conclusions.REQUIREMENTS]
+
+
+def test_what_is_said_of_all_claims_counts_them_as_every_place_does():
+    words = counts.sentence(report.record(), STATEMENTS)
+    assert f'<p class="sentence">{words}</p>' in conclusions.all_claims().data
+    shown = {*sum(conclusions.CARRYING.values(), ()), *CLAIMS_OF["chapter_5"]}
+    count, judged = counts.reproduced(report.record()["claims"], shown & {*AGENTS})
+    assert f"of claims about agents: {count} of {judged} calibrated" in conclusions.answer().data
 
 
 def test_claims_that_fail_are_those_of_one_reading_and_those_without_any():

@@ -6,7 +6,7 @@ import pytest
 from computing import cells
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_output
 
-from companion.page import recorded, report
+from companion.page import counts, recorded, report
 from companion.thesis.statements import STATEMENTS, Bounds
 from companion.thesis.verdict import VERDICTS
 
@@ -106,6 +106,52 @@ def test_a_caption_of_the_book_answers_its_question_by_the_record():
     found = recorded.by_figure(RECORD)["fig-proficiency-networks"]
     assert shown == f"Does each help? Recorded: {found}. Reward per second."
     assert cells.answered("Drawn from its data.", "all") == "Drawn from its data."
+
+
+CLAIM = {"verdict": "reproduced"}
+COUNTED = {"claims": {name: CLAIM for name in ("B1", "B2", "B5", "B7", "T2")} | {"B3": {"verdict": "partly"}},
+           "letter": {"B1": CLAIM, "B7": {"verdict": "partly"}}}
+
+
+def test_kinds_of_claims_are_counted_apart():
+    assert counts.sentence(COUNTED, ["B1", "B7", "B2", "B5", "B3", "B4"]) == (
+        "Reproduced, of claims about agents: 2 of 3 calibrated, 1 of 1 to the letter; apart from these, of what is "
+        "proved or counted: 1 of 1; apart from these, of our demonstrations, which are no claims of the thesis: 1 of 1 "
+        "calibrated, 0 of 1 to the letter.")
+    assert counts.sentence(COUNTED, ["T2"]) == "Reproduced, of what is about our code: 1 of 1."
+    assert counts.sentence(COUNTED, ["A1"]) == ""
+
+
+@pytest.mark.parametrize("page", recorded.SHOWN)
+def test_the_figure_of_a_page_never_mixes_kinds(page):
+    bodies = recorded.answer(page).data.split("<tbody>")[1:]
+    found = [re.findall(r'\(<a href="[^"]*#claim-\w+"[^>]*>(\w+)</a>\)', body) for body in bodies]
+    assert [tuple(names) for names in found] == [*counts.by_kind(recorded.SHOWN[page]).values()]
+    assert len(found) == 1 or all(f">{words}</th>" in body for words, body in zip(
+        counts.by_kind(recorded.SHOWN[page]), bodies))
+
+
+def test_the_column_of_the_thesis_has_what_it_prints_and_bounds_of_ours_are_said_to_be():
+    for name, statement in STATEMENTS.items():
+        thesis = re.findall("<td>(?!<svg)(.*?)</td>", recorded.figure({"claims": {}, "letter": {}}, {"": [name]}))[0]
+        printed = statement.quotation.replace("²", "2")
+        ours = thesis.startswith("<small>ours: ")
+        assert ours or all(each in printed for each in re.findall(r"[\d.]+", thesis)), name
+    assert recorded.expected("A7") == "Thesis: 3.5" and recorded.expected("C2") == "Bound of this book: 0.01 or more"
+    drawn = recorded.figure(RECORD, {"": ["T2"]})
+    assert "<small>ours: 1.1 or less</small>" in drawn and '<line class="thesis"' not in drawn
+
+
+def test_boards_are_said_of_the_papers_whose_claims_are_shown():
+    assert recorded.boards(["A1", "T1"]) == ("Paper A: 8 creeps, +5 for the last green one, 30 steps per second "
+                                             "calibrated, 50 steps per second to the letter.")
+    assert recorded.boards(["C1"]) == "Papers B and C: 3 creeps, nothing for the last green one, 50 steps per second."
+    assert recorded.boards(["T1", "A10"]) == "" and recorded.boards(["C2"]) in recorded.answer("paper_c").data
+
+
+def test_numbers_stand_with_what_they_are_of():
+    drawn = recorded.figure(RECORD, {"": ["T6"]})
+    assert f"<small>{STATEMENTS['T6'].statistic}</small>" in drawn
 
 
 def test_claims_in_few_words_are_few():

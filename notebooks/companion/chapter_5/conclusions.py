@@ -9,11 +9,11 @@
 from dataclasses import replace
 
 from companion.chapter_5.trials import TIMED
-from companion.page import judging, opening, recorded, report
+from companion.page import counts, judging, opening, recorded, report
 from companion.page.report import CLAIMS_OF
 from companion.thesis import claims
 from companion.thesis.reading import additions
-from companion.thesis.statements import AGENTS, APART, CLAIMS, DEMONSTRATIONS, STATEMENTS
+from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
 from companion.thesis.verdict import FAILED
 
 SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "A9", "A11", "B1", "B2", "B3", "B4", "B6", "T6", "T12")
@@ -21,7 +21,7 @@ SEPARATION = ("T1", "T7", "T10", "T11", "C1", "C2", "C3", "C4", "C6")
 CARRYING = {"Superposition": ("A6", "B2", "B3", "B6"), "Learning apart from behaviour": ("C3", "C4", "T1", "T7")}
 GROUND = tuple(name for name in AGENTS if name not in SUPERPOSITION + SEPARATION)
 GROUPS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION, "What both rest on": GROUND,
-          "Counted apart": APART, "Beside the claims": DEMONSTRATIONS}
+          **counts.by_kind(name for name in STATEMENTS if name not in AGENTS)}
 OWN = CLAIMS_OF["chapter_5"]
 REQUIREMENTS = ("T10", "T11", "T12")  # of chapter 4, and what section 4.4 says of them, which the record alone judges
 TURNED = ("revalued", "frozen", "wanting")  # agents whose desires change, or that had the later ones from the start
@@ -53,13 +53,15 @@ def answer():
         stand.append(f"{name.lower()} {calibrated} under both readings" if calibrated == letter else
                      f"{name.lower()} {calibrated} as calibrated, and {letter} to the letter")
     rest = {"Of this chapter too": [name for name in (*OWN, *REQUIREMENTS) if name not in sum(CARRYING.values(), ())]}
+    names = sum(map(tuple, (CARRYING | rest).values()), ())
     sentences = "; ".join(stand), recorded.finding(report.record(), "T1")
-    return recorded.shown(" ".join(f"{words[0].upper()}{words[1:]}." for words in sentences), CARRYING | rest)
+    words = [*(f"{each[0].upper()}{each[1:]}." for each in sentences), counts.sentence(report.record(), names)]
+    return recorded.shown(" ".join(words), CARRYING | rest)
 
 
 def all_claims():
-    """All claims by the conclusion that rests on them, as HTML."""
-    return recorded.shown("", GROUPS)
+    """All claims by the conclusion that rests on them, with their counts, as HTML."""
+    return recorded.shown(counts.sentence(report.record(), STATEMENTS), GROUPS)
 
 
 def of_reading(reading):
@@ -82,6 +84,6 @@ def standing(found, names):
 def failed(reading):
     """The claims that have failed under a reading, a list item each, in Markdown; "" if there are none."""
     found = of_reading(reading)
-    return "\n".join(f"- {opening.link(name)}: {STATEMENTS[name].text}. Thesis: {STATEMENTS[name].thesis}; here: "
+    return "\n".join(f"- {opening.link(name)}: {STATEMENTS[name].text}. {recorded.expected(name)}; here: "
                      f"{report.number(found[name])} ({found[name]['verdict']})."
                      for name in CLAIMS if name in found and found[name]["verdict"] in FAILED)

@@ -6,15 +6,19 @@
 3. Figures are HTML tables with SVG in their cells, so that their words wrap on a narrow page.
 """
 
+import re
+import unicodedata
+from dataclasses import replace
+from functools import cache
 from html import escape
 from importlib import resources
 
 import numpy as np
 from IPython.display import HTML
 
-from companion.page import marks, report
+from companion.page import counts, marks, report
 from companion.page.opening import CLAIMS_PAGE, link
-from companion.thesis.reading import NAMES
+from companion.thesis.reading import NAMES, READINGS, conditions
 from companion.thesis.statements import STATEMENTS
 from companion.thesis.verdict import belongs
 from neorl.statistics import Estimate
@@ -28,17 +32,21 @@ EDGES = 100 / 3, 200 / 3  # of the band, in percent of a line
 FARTHEST = 28.0, 60.0  # percent between the only edge of a band and the farthest number, outside and inside
 PLACES = {True: "inside", None: "across the edge", False: "outside"}
 OPEN = "undecided", "not testable"
+PAPERS = ("Paper A", "A", 8), ("Papers B and C", "BC", 3)  # letters of their claims, and creeps
+NUMBER = r"\d+(?:\.\d+)?"
 
 
 def answer(page):
     """What the record says of a page's claims, as HTML: a sentence and a figure. page: name of a notebook."""
-    return shown(sentence(report.record(), SHOWN[page]), {"": SHOWN[page]})
+    groups = counts.by_kind(SHOWN[page])
+    return shown(sentence(report.record(), SHOWN[page]), groups if len(groups) > 1 else {"": SHOWN[page]})
 
 
 def shown(sentence, groups):
     """A sentence and the figure of some claims below it, as HTML for a notebook. groups: see `figure`."""
     record = report.record()
-    note = NOTE + READINGS * any(name in record["letter"] for names in groups.values() for name in names)
+    names = [name for names in groups.values() for name in names]
+    note = " ".join(filter(None, [NOTE, any(name in record["letter"] for name in names) and TWO, boards(names)]))
     words = f'<p class="sentence">{sentence}</p>' * bool(sentence)
     return HTML(f'<div class="recorded"><style>{STYLE.read_text("utf-8")}</style>{words}'
                 f'{figure(record, groups, CLAIMS_PAGE)}<p class="note">{note}</p></div>',
@@ -50,7 +58,7 @@ def sentence(record, names):
     words = joined(filter(None, (finding(record, name) for name in names))) if len(names) <= MOST_IN_WORDS else ""
     if words and any(name in record["letter"] for name in names):
         words = f"calibrated, {words}"
-    return " ".join(filter(None, [words and f"{words[0].upper()}{words[1:]}.", counted(record, names)]))
+    return " ".join(filter(None, [words and f"{words[0].upper()}{words[1:]}.", counts.sentence(record, names)]))
 
 
 def finding(record, name):
@@ -83,16 +91,6 @@ def said(claim, words):
     here = _value(claim["here"]).removesuffix(".00")
     return words.format(here=here, size=here.lstrip("−"), where=where,
                         of={what: _value(number) for what, number in numbers.items()})
-
-
-def counted(record, names):
-    """How many of some claims are reproduced under the readings that judge them, in a sentence."""
-    parts = []
-    for reading, part in report.PART_OF.items():
-        verdicts = [record[part][name]["verdict"] for name in names if name in record[part]]
-        of_reading = f" {NAMES[reading]}" if any(name in record["letter"] for name in names) else ""
-        parts += [f"{verdicts.count('reproduced')} of {len(verdicts)}{of_reading}"] if verdicts else []
-    return f"Reproduced: {', '.join(parts)}." if len(names) > 1 else ""
 
 
 def figure(record, groups, claims_page=""):
@@ -131,6 +129,41 @@ def bounds_of(name, what):
     return next((each for part, each in statement.also.items() if belongs(what, part)), statement.bounds)
 
 
+def prints(statement, words):
+    """Whether all numbers in some words are printed in the sentence that is judged; others are bounds of this book."""
+    printed = re.findall(NUMBER, unicodedata.normalize("NFKC", statement.quotation))  # ² is a 2
+    return all(number in printed for number in re.findall(NUMBER, words))
+
+
+def expected(name):
+    """What a claim is compared with, as text: the thesis's number or words, or else the bound of this book."""
+    statement = STATEMENTS[name]
+    printed = prints(statement, statement.thesis)
+    return f"Thesis: {statement.thesis}" if printed else f"Bound of this book: {statement.bounds}"
+
+
+def boards(names):
+    """The boards of the papers that some claims are from, a sentence each; "" if they are from none.
+
+    What the reading to the letter does not judge has another board, or none.
+    """
+    papers = {name[0] for name in names if name in report.record()["letter"]}
+    return " ".join(f"{of}: {_board(creeps)}." for of, letters, creeps in PAPERS if papers & {*letters})
+
+
+@cache
+def _board(creeps):
+    """The board of the papers with so many creeps under both readings, in words."""
+    boards = {NAMES[name]: conditions(reading, 1, 1, groups=["layers", "modal"])["brownian", creeps].world
+              for name, reading in READINGS.items()}
+    rates = {f"{board.fps} steps per second" for board in boards.values()}
+    rate = rates.pop() if len(rates) == 1 else ", ".join(
+        f"{board.fps} steps per second {name}" for name, board in boards.items())
+    reward = next(iter(boards.values())).win_reward
+    last = f"{reward:+g} for the last green one" if reward else "nothing for the last green one"
+    return f"{creeps} creeps, {last}, {rate}"
+
+
 def _value(number):
     """A number as a record has it, without its interval, as text."""
     return str(Estimate(number[0], np.nan, np.nan))
@@ -149,10 +182,12 @@ def _line(record, name, columns, claims_page):
     rests = (f"<small>decided by another number, {escape(other[0])}: {report.number({'here': other[1]})}, which must "
              f"be {escape(other[2].partition(' (')[0])}</small>" if other else "")
     cells = "".join(f"<td>{_ours(found.get(reading))}</td>" for reading in columns)
-    thesis = statement.thesis if bounds.number is None else f"{bounds.number:g}"
+    thesis = escape(statement.thesis if bounds.number is None else f"{bounds.number:g}")
+    if not prints(statement, thesis):
+        thesis, bounds = f"<small>ours: {bounds}</small>", replace(bounds, number=None)
     return (f'<tr><th scope="row" title="{escape(statement.text)}">{escape(statement.short)} '
-            f"({link(name, claims_page)}){rests}</th><td>{_scale(bounds, found)}</td><td>{escape(thesis)}</td>"
-            f"{cells}</tr>")
+            f"({link(name, claims_page)})<small>{escape(statement.statistic)}</small>{rests}</th>"
+            f"<td>{_scale(bounds, found)}</td><td>{thesis}</td>{cells}</tr>")
 
 
 def _ours(found):
@@ -219,6 +254,6 @@ def _estimate(here):
 MARKERS = {reading: f'<svg class="key" role="presentation"><g class="{reading}">{_marker(reading, "50%", 6)}</g></svg>'
            for reading in report.PART_OF}
 NOTE = "From the committed record, with 95\u00a0% intervals; an arrow points beyond the end of its line."
-READINGS = (" To the letter: all gaps in the thesis’s text filled by the plainest choices. Calibrated: by those that "
-            "fit its numbers best.")
+TWO = ("To the letter: all gaps in the thesis’s text filled by the plainest choices. Calibrated: by those that fit its "
+       "numbers best.")
 LEGEND = ('<span class="key band"></span> agrees with the thesis, <span class="key thesis"></span> its number')
