@@ -70,6 +70,7 @@ def test_the_page_has_every_claim_once_and_those_not_about_agents_under_headings
     assert sorted(names) == sorted(STATEMENTS) and names[:len(AGENTS)] == sorted(AGENTS, key=lambda name: name[0])
     assert names[-len(DEMONSTRATIONS):] == [*DEMONSTRATIONS]
     assert {name[0] for name in AGENTS} == set(ledger.CHAPTERS)
+    assert f"### {ledger.CHAPTERS['C']}\n\nPapers B and C: 3 creeps, nothing for the last green one, 50 steps" in page
     sections = {part.split("\n")[0]: re.findall(r"<b>(\w+)</b>", part) for part in page.split("\n### ")[1:]}
     assert {title: tuple(listed) for title, listed in sections.items() if title not in ledger.CHAPTERS.values()} == (
         counts.by_kind(name for name in STATEMENTS if name not in AGENTS))

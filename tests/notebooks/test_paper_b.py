@@ -11,6 +11,7 @@ from companion.paper_b import figures, judgement
 from companion.page.judging import by_condition
 from companion.page.report import CLAIMS_OF
 from companion.thesis.reading import READINGS, conditions
+from neorl.statistics import Estimate
 
 ALL = [*CLAIMS_OF["paper_b"]]
 
@@ -86,3 +87,14 @@ def test_the_explorer_offers_what_was_run_by_the_paper_s_figures():
     assert next(iter(offered)) == "Paper B, figure 5: place + object-vector cells" and len(offered) == 2 + 2 * 7
     assert offered["Paper B, figure 4A: place cells, N13"] is page.place["N13"]
     assert offered["Paper B, figure 4B: object-vector cells, all"] is page.results["OVC"]
+
+
+def test_a_level_that_is_never_reached_has_no_time():
+    def learning(rate):  # reward per second of each bin, of both runs
+        condition = neorl.Condition(neorl.brownian(), neorl.WaterWorld(), 50 * 400, 2)
+        return neorl.Result(condition, np.tile(np.float32(rate), (2, 1)), np.zeros((2, len(rate), 2), np.int16))
+    table = figures.paces({"PC": learning(np.linspace(0, -1, 400)), "PC + OVC": learning(np.linspace(0, 1, 400))}, True)
+    both, place = table.splitlines()[2:]
+    assert place == "| place | > 160 | never within the run |" and both.endswith("| 15 | 5.41 |")
+    assert figures._time(Estimate(150.0, 140.5, 200.0), 200.0) == "150 [140, never within the run]"
+    assert figures._time(Estimate(150.0, 140.5, 160.0), 200.0) == "150 [140, 160]"
