@@ -84,5 +84,4 @@ STATEMENTS = {
     for name, fields in tomllib.loads((resources.files(__package__) / "statements.toml").read_text("utf-8")).items()}
 CLAIMS = tuple(name for name, statement in STATEMENTS.items() if statement.kind != "demonstration")
 AGENTS = tuple(name for name, statement in STATEMENTS.items() if statement.kind == "agents")
-APART = tuple(name for name in CLAIMS if name not in AGENTS)
 DEMONSTRATIONS = tuple(name for name, statement in STATEMENTS.items() if statement.kind == "demonstration")
