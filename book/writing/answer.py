@@ -32,7 +32,7 @@ REPRODUCED = "Claims", "Reproduced to the letter", "Reproduced calibrated"
 
 
 def headline(record):
-    """What is reproduced of the claims about agents, under both readings, in a few sentences. record: of `report`."""
+    """What is reproduced of the claims about agents, in a few sentences. record: see `report.record`."""
     letter, calibrated = (_reproduced(record[part], AGENTS) for part in ("letter", "claims"))
     return (f"The thesis makes {len(AGENTS)} claims about its agents. With every gap of its text filled by the "
             f"plainest choice (“to the letter”), {letter} of them {'is' if letter == 1 else 'are'} reproduced; with "

@@ -182,9 +182,9 @@ def _line(record, name, columns, claims_page):
     rests = (f"<small>decided by another number, {escape(other[0])}: {report.number({'here': other[1]})}, which must "
              f"be {escape(other[2].partition(' (')[0])}</small>" if other else "")
     cells = "".join(f"<td>{_ours(found.get(reading))}</td>" for reading in columns)
-    thesis = escape(statement.thesis if bounds.number is None else f"{bounds.number:g}")
-    if not prints(statement, thesis):
-        thesis, bounds = f"<small>ours: {bounds}</small>", replace(bounds, number=None)
+    words = statement.thesis if bounds.number is None else f"{bounds.number:g}"
+    thesis = escape(words) if prints(statement, words) else f"<small>ours: {bounds}</small>"
+    bounds = bounds if prints(statement, words) else replace(bounds, number=None)
     return (f'<tr><th scope="row" title="{escape(statement.text)}">{escape(statement.short)} '
             f"({link(name, claims_page)})<small>{escape(statement.statistic)}</small>{rests}</th>"
             f"<td>{_scale(bounds, found)}</td><td>{thesis}</td>{cells}</tr>")
