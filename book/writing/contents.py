@@ -1,13 +1,12 @@
-"""The table of contents in pictures: the title of each computed page, its first figure, a question and its answer.
+"""The table of contents in pictures: the title of each computed page, its first figure, and a sentence.
 
-The question is the first sentence of the figure's caption, and says what the eye can find in the picture. The answer is
-the recorded one, on pages that have claims.
+It is the first of the page's recorded answer, or else of the figure's caption, which asks what the eye can find there.
 """
 
 import re
 
 import nbformat
-from companion.page import recorded, report
+from companion.page import answers
 
 MOST_BYTES = 40_000  # of a picture
 
@@ -33,16 +32,12 @@ def card(name, page, chapters):
             picture = [f":img-top: chapters/{figure.name}", f":img-alt: {shown['image']['alt']}"]
             return "\n".join([":::{grid-item-card}", f":link: chapters/{name}", ":link-type: doc",
                               *(picture if figure.stat().st_size <= MOST_BYTES else []), "", f"**{title}**", "",
-                              question(shown["figure"]["caption"]), "", answer(name), ":::"])
+                              first(answers.answer(name)) or first(shown["figure"]["caption"]), ":::"])
     return ""
 
 
-def answer(page):
-    """The recorded answer of a page, "" if it has no claims."""
-    return recorded.sentence(report.record(), recorded.SHOWN.get(page, ()))
-
-
-def question(caption):
-    """The first sentence of a caption, without its links and terms."""
-    text = re.sub(r"\{\w+\}`([^`<]+?)(?: <[^>]*>)?`|\[([^]]+)\]\([^)]*\)", lambda link: link[1] or link[2], caption)
-    return re.match(r".+?[.?!](?=\s|$)", text)[0]
+def first(text):
+    """The first sentence of Markdown, without its links and terms; "" of none."""
+    text = re.sub(r"\{\w+\}`([^`<]+?)(?: <[^>]*>)?`|\[([^]]+)\]\([^)]*\)", lambda link: link[1] or link[2], text)
+    found = re.match(r".+?[.?!](?=\s|$)", text)
+    return found[0] if found else ""

@@ -1,18 +1,16 @@
 """The two conclusions of the thesis (section 5.1), the claims behind them, and whether they are reproduced.
 
 1. Each rests on some claims about agents, of which four *carry* it; all others about agents are the ground of both.
-2. A conclusion *stands* if all that carry it are reproduced, *in part* if any is, wholly or partly, *does not stand* if
-   all have failed, and is *open* otherwise.
-3. All of it is said of the committed record; what the page itself runs is judged beside it.
+2. All of it is said of the committed record; what the page itself runs is judged beside it.
 """
 
 from dataclasses import replace
 
 from companion.chapter_5.trials import TIMED
-from companion.page import counts, judging, opening, recorded, report
+from companion.page import answers, counts, judging, opening, recorded, report
 from companion.page.report import CLAIMS_OF
 from companion.thesis import claims
-from companion.thesis.reading import additions
+from companion.thesis.reading import NAMES, additions
 from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
 from companion.thesis.verdict import FAILED
 
@@ -46,17 +44,15 @@ def judge(ran, reading, moved, costs):
 
 
 def answer():
-    """Whether the conclusions stand, and the claims that carry them, as HTML: the recorded answer of the page."""
-    stand = []
+    """What carries the conclusions, and how much of it is reproduced, as HTML: the recorded answer of the page."""
+    carried = []
     for name, names in CARRYING.items():
-        calibrated, letter = (standing(of_reading(reading), names) for reading in report.PART_OF)
-        stand.append(f"{name.lower()} {calibrated} under both readings" if calibrated == letter else
-                     f"{name.lower()} {calibrated} as calibrated, and {letter} to the letter")
+        numbers = [f"{counts.reproduced(of_reading(reading), names)[0]} {NAMES[reading]}" for reading in report.PART_OF]
+        carried.append(f"of the {len(names)} claims that carry the conclusion on {name.lower()}, "
+                       f"{' and '.join(numbers)} are reproduced")
     rest = {"Of this chapter too": [name for name in (*OWN, *REQUIREMENTS) if name not in sum(CARRYING.values(), ())]}
-    names = sum(map(tuple, (CARRYING | rest).values()), ())
-    sentences = "; ".join(stand), recorded.finding(report.record(), "T1")
-    words = [*(f"{each[0].upper()}{each[1:]}." for each in sentences), counts.sentence(report.record(), names)]
-    return recorded.shown(" ".join(words), CARRYING | rest)
+    carried = "; ".join(carried)
+    return recorded.shown(f"{answers.answer('chapter_5')} {carried[0].upper()}{carried[1:]}.", CARRYING | rest)
 
 
 def all_claims():
@@ -69,16 +65,6 @@ def of_reading(reading):
     record = report.record()
     free = {name: found for name, found in record["claims"].items() if name not in record["letter"]}
     return free | record[report.PART_OF[reading]]
-
-
-def standing(found, names):
-    """Whether what rests on some claims stands, see rule 2, in words. found: {name: a recorded claim}."""
-    verdicts = [found[name]["verdict"] for name in names]
-    if all(verdict == "reproduced" for verdict in verdicts):
-        return "stands"
-    if any(verdict in ("reproduced", "partly") for verdict in verdicts):
-        return "stands in part"
-    return "does not stand" if all(verdict in FAILED for verdict in verdicts) else "is open"
 
 
 def failed(reading):

@@ -16,6 +16,7 @@ import numpy as np
 from companion import thesis
 from companion.page import judging
 from companion.thesis.reading import LENGTHS, READINGS, conditions
+from neorl import Condition, WaterWorld, forager
 from neorl.drawing.style import INK, SMALL, looks
 from neorl.statistics import FEWEST_RUNS, Estimate
 
@@ -114,5 +115,6 @@ def _curves():
 @cache
 def _known():
     """The conditions that the record has curves of: {(reading, name): `Condition`}."""
-    return {(name, words(key)): condition for name, reading in READINGS.items()
-            for key, condition in conditions(reading, LENGTHS["B"], 1).items() if words(key) in _curves()[name]}
+    of_papers = {(name, words(key)): condition for name, reading in READINGS.items()
+                 for key, condition in conditions(reading, LENGTHS["B"], 1).items() if words(key) in _curves()[name]}
+    return of_papers | {("calibrated", "forager"): Condition(forager(), WaterWorld(n_creeps=3), 1, 1)}

@@ -16,7 +16,7 @@ from importlib import resources
 import numpy as np
 from IPython.display import HTML
 
-from companion.page import counts, marks, report
+from companion.page import answers, counts, marks, report
 from companion.page.opening import CLAIMS_PAGE, link
 from companion.thesis.reading import NAMES, READINGS, conditions
 from companion.thesis.statements import STATEMENTS
@@ -27,38 +27,33 @@ STYLE = resources.files(__package__) / "recorded.css"
 SHOWN = report.CLAIMS_OF | {  # of pages that judge none
     "beyond_agents": ("C5",), "calibration": (*report.record()["shares"],), "chapter_1": ("T1",),
     "performance": ("T2", "T5")}
-MOST_IN_WORDS = 12  # claims
 EDGES = 100 / 3, 200 / 3  # of the band, in percent of a line
 FARTHEST = 28.0, 60.0  # percent between the only edge of a band and the farthest number, outside and inside
 PLACES = {True: "inside", None: "across the edge", False: "outside"}
+MEANINGS = "what-the-verdicts-mean"  # the anchor of a section on the page of claims
 OPEN = "undecided", "not testable"
 PAPERS = ("Paper A", "A", 8), ("Papers B and C", "BC", 3)  # letters of their claims, and creeps
 NUMBER = r"\d+(?:\.\d+)?"
 
 
 def answer(page):
-    """What the record says of a page's claims, as HTML: a sentence and a figure. page: name of a notebook."""
-    groups = counts.by_kind(SHOWN[page])
-    return shown(sentence(report.record(), SHOWN[page]), groups if len(groups) > 1 else {"": SHOWN[page]})
+    """The answer of a page and the figure of its claims, as HTML. page: name of a notebook."""
+    groups, record = counts.by_kind(SHOWN[page]), report.record()
+    words = answers.answer(page) or counts.sentence(record, SHOWN[page])
+    return shown(words, groups if len(groups) > 1 else {"": SHOWN[page]})
 
 
 def shown(sentence, groups):
     """A sentence and the figure of some claims below it, as HTML for a notebook. groups: see `figure`."""
     record = report.record()
     names = [name for names in groups.values() for name in names]
-    note = " ".join(filter(None, [NOTE, any(name in record["letter"] for name in names) and TWO, boards(names)]))
+    counted = counts.sentence(record, names)
+    two = TWO if any(name in record["letter"] for name in names) else ""
+    note = " ".join(filter(None, [counted if counted != sentence else "", NOTE, two, boards(names)]))
     words = f'<p class="sentence">{sentence}</p>' * bool(sentence)
     return HTML(f'<div class="recorded"><style>{STYLE.read_text("utf-8")}</style>{words}'
                 f'{figure(record, groups, CLAIMS_PAGE)}<p class="note">{note}</p></div>',
                 metadata={"findings": by_figure(record)})  # the book has them in its captions
-
-
-def sentence(record, names):
-    """What was found on some claims in words, as far as they have some and are few, and how many are reproduced."""
-    words = joined(filter(None, (finding(record, name) for name in names))) if len(names) <= MOST_IN_WORDS else ""
-    if words and any(name in record["letter"] for name in names):
-        words = f"calibrated, {words}"
-    return " ".join(filter(None, [words and f"{words[0].upper()}{words[1:]}.", counts.sentence(record, names)]))
 
 
 def finding(record, name):
@@ -181,7 +176,7 @@ def _line(record, name, columns, claims_page):
     bounds, other = bounds_of(name, compared), found and decisive(name, found.get("calibrated") or found["letter"])
     rests = (f"<small>decided by another number, {escape(other[0])}: {report.number({'here': other[1]})}, which must "
              f"be {escape(other[2].partition(' (')[0])}</small>" if other else "")
-    cells = "".join(f"<td>{_ours(found.get(reading))}</td>" for reading in columns)
+    cells = "".join(f"<td>{_ours(found.get(reading), claims_page)}</td>" for reading in columns)
     words = statement.thesis if bounds.number is None else f"{bounds.number:g}"
     thesis = escape(words) if prints(statement, words) else f"<small>ours: {bounds}</small>"
     bounds = bounds if prints(statement, words) else replace(bounds, number=None)
@@ -190,11 +185,12 @@ def _line(record, name, columns, claims_page):
             f"<td>{_scale(bounds, found)}</td><td>{thesis}</td>{cells}</tr>")
 
 
-def _ours(found):
+def _ours(found, claims_page):
     if not found:
         return ""
+    verdict = f'<a href="{claims_page}#{MEANINGS}">{found["verdict"]}</a>'
     return (f'<span title="{report.number(found)}, {found["runs"]} runs or more">{_value(found["here"])}</span>'
-            f'<small class="{marks.MARKS[found["verdict"]].css}">{found["verdict"]}</small>')
+            f'<small class="{marks.MARKS[found["verdict"]].css}">{verdict}</small>')
 
 
 def _scale(bounds, found):
