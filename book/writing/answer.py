@@ -20,7 +20,7 @@ from companion.thesis.verdict import FAILED
 from writing.rules import BEFORE
 
 NOT_FITTED = tuple(name for name in AGENTS if name not in FITTED)
-INDEPENDENT = "A10", "T1"  # of these, whose rules read no condition that the search ran; all others share some
+INDEPENDENT = "A10", "T1", "T10", "T11"  # of these, whose rules read no condition that the search ran
 BLOCKS = {f"{counts.KINDS['agents']}, by which the calibrated reading was chosen": FITTED,
           f"{counts.KINDS['agents']}, not used for that": NOT_FITTED,
           **counts.by_kind(name for name in STATEMENTS if name not in AGENTS)}

@@ -130,3 +130,14 @@ def test_agents_roam_as_far_as_their_paths_spread():
         path.append(run.world_state.scene.position / tank.width)
     assert before.shape == end.shape == (2, 2) and end.all()
     np.testing.assert_allclose(before[1], np.std(path, axis=0))
+
+
+@pytest.mark.parametrize("reading", ["calibrated", "letter"])
+def test_pasts_stand_beside_each_other_for_both_desires(reading):
+    header, _, *rows, _, note = conclusions.pasts(reading).splitlines()
+    assert header.startswith("| While learning | Points a second, green wanted and red feared | Caught a minute, both col")
+    assert [row.split(" | ")[0] for row in rows] == [
+        "| Nothing wanted before", "| Green wanted before", "| Green wanted and red feared before"]
+    numbers = report.record()[report.PART_OF[reading]]["T11"]["numbers"]
+    value, *_ = numbers["caught a minute, both colours wanted, green wanted before"][0]
+    assert f"{value:.0f} [" in rows[1] or f"{value:.2f}" in rows[1]

@@ -9,8 +9,10 @@ from dataclasses import replace
 from companion.chapter_5.trials import TIMED
 from companion.page import answers, counts, judging, opening, recorded, report
 from companion.page.report import CLAIMS_OF
+from companion.page.wording import table
 from companion.thesis import claims
 from companion.thesis.reading import NAMES, additions
+from companion.thesis.rules_chapters import MEASURED, PAST, THEN
 from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
 from companion.thesis.verdict import FAILED
 
@@ -58,6 +60,16 @@ def answer():
 def all_claims():
     """All claims by the conclusion that rests on them, with their counts, as HTML."""
     return recorded.shown(counts.sentence(report.record(), STATEMENTS), GROUPS)
+
+
+def pasts(reading):
+    """What agents get of what they desire, by what they had desired while they learned, as recorded, in Markdown."""
+    record = report.record()[report.PART_OF[reading]]["T11"]
+    measures = [f"{MEASURED[then]}, {THEN[then]}" for then in THEN]
+    rows = [[past.capitalize(), *(report.number({"here": record["numbers"][f"{measure}, {past}"][0]})
+                                  for measure in measures)] for past in PAST.values()]
+    heads = [f"{measure[0].upper()}{measure[1:]}" for measure in measures]
+    return f"{table(['While learning', *heads], rows)}\n\nFrom the record, {record['runs']} runs of each."
 
 
 def of_reading(reading):
