@@ -89,7 +89,7 @@ def test_the_answer_has_the_claims_of_both_conclusions_under_both_readings():
 def test_what_is_said_of_all_claims_counts_them_as_every_place_does():
     words = counts.sentence(report.record(), STATEMENTS)
     assert f'<p class="sentence">{words}</p>' in conclusions.all_claims().data
-    shown = {*sum(conclusions.CARRYING.values(), ()), *CLAIMS_OF["chapter_5"]}
+    shown = {*sum(conclusions.CARRYING.values(), ()), *CLAIMS_OF["chapter_5"], *conclusions.REQUIREMENTS}
     count, judged = counts.reproduced(report.record()["claims"], shown & {*AGENTS})
     assert f"of claims about agents: {count} of {judged} calibrated" in conclusions.answer().data
 
@@ -135,7 +135,8 @@ def test_agents_roam_as_far_as_their_paths_spread():
 @pytest.mark.parametrize("reading", ["calibrated", "letter"])
 def test_pasts_stand_beside_each_other_for_both_desires(reading):
     header, _, *rows, _, note = conclusions.pasts(reading).splitlines()
-    assert header.startswith("| While learning | Points a second, green wanted and red feared | Caught a minute, both col")
+    assert header == ("| While learning | Points a second, green wanted and red feared | Caught a minute, both colours "
+                      "wanted |")
     assert [row.split(" | ")[0] for row in rows] == [
         "| Nothing wanted before", "| Green wanted before", "| Green wanted and red feared before"]
     numbers = report.record()[report.PART_OF[reading]]["T11"]["numbers"]

@@ -178,8 +178,9 @@ def _line(record, name, columns, claims_page):
              f"be {escape(other[2].partition(' (')[0])}</small>" if other else "")
     cells = "".join(f"<td>{_ours(found.get(reading), claims_page)}</td>" for reading in columns)
     words = statement.thesis if bounds.number is None else f"{bounds.number:g}"
-    thesis = escape(words) if prints(statement, words) else f"<small>ours: {bounds}</small>"
-    bounds = bounds if prints(statement, words) else replace(bounds, number=None)
+    printed = prints(statement, words)
+    bounds = bounds if printed else replace(bounds, number=None)
+    thesis = escape(words) * printed + f"<small>ours: {bounds}</small>" * (bounds.number is None)
     return (f'<tr><th scope="row" title="{escape(statement.text)}">{escape(statement.short)} '
             f"({link(name, claims_page)})<small>{escape(statement.statistic)}</small>{rests}</th>"
             f"<td>{_scale(bounds, found)}</td><td>{thesis}</td>{cells}</tr>")
