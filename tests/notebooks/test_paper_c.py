@@ -1,5 +1,6 @@
-"""The page of paper C: the experiment in its cells, its parameters, and where desires land."""
+"""The page of paper C: the experiment in its cells, its parameters, where desires land, and runs that stand still."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -7,9 +8,8 @@ import pytest
 from page_cells import LAST, assert_captions_and_prose_speak_of_what_is_drawn, executed
 
 from companion import paper_c
-from neorl import Learning, Policy, Run, WaterWorld, network_b
-from companion.thesis.reading import READINGS, Reading, conditions, networks
-from neorl.experiments.condition import Condition
+from companion.thesis.reading import A_LITTLE, READINGS, Reading, conditions, networks, nodes
+from neorl import Condition, Learning, Policy, Result, Run, WaterWorld, network_b, network_c, simulate
 
 
 @pytest.mark.parametrize("name", READINGS)
@@ -17,8 +17,9 @@ def test_the_page_runs_and_judges_the_networks_of_a_reading(name):
     page = executed("paper_c", until=LAST[name], reading=name)
     expected = conditions(READINGS[name], 1_000, 2, groups=["networks"])
     ran = {key: each.condition for key, each in (page.results | page.control).items()}
-    assert ran == {key[1] if key[0] == "network" else "Brownian": each for key, each in expected.items()}
-    assert [claim.name for claim in page.judged] == ["C1", "C2", "C3", "C4"]
+    names = {"network": lambda name: name, "node": paper_c.ALONE.get, "brownian": lambda creeps: "Brownian"}
+    assert ran == {names[kind](name): each for (kind, name), each in expected.items()}
+    assert {"C1", "C2", "C3", "C4"} <= {claim.name for claim in page.judged}
     assert not any(claim.full_length for claim in page.judged)
 
 
@@ -29,7 +30,8 @@ def page():
 
 
 def test_parameters_are_those_of_the_networks_and_their_variations_and_other_ones_are_not_judged(page):
-    agents = networks(Reading(recursion=-0.5, network_resolutions=(2, 7)))
+    reading = Reading(recursion=-0.5, network_resolutions=(2, 7))
+    agents = networks(reading) | {paper_c.ALONE[name]: agent for name, agent in nodes(reading).items()}
     assert {name: each.agent for name, each in page.results.items()} == agents
     assert {each.world for each in page.results.values()} == {WaterWorld(n_creeps=5)} and page.judged == []
     for name, variant in page.variants.items():
@@ -69,3 +71,64 @@ def test_desires_that_land_on_the_agent_are_distinguished_from_those_that_do_not
         assert widths.shape == (2,) and np.all(widths < 0.01) and np.all(share == 1) and not np.any(beyond)
     widths, share, beyond = distances("D", scale=1e6)
     assert np.all(widths > 1) and np.all(share < 1) and np.all(beyond > 0)
+
+
+def test_the_page_lets_networks_and_their_nodes_explore(page):
+    assert [*page.exploring] == ["C", "D", *paper_c.ALONE.values()]
+    for name, result in page.exploring.items():
+        agent = page.results[name].agent
+        assert result.agent == replace(agent, policy=replace(agent.policy, exploration=A_LITTLE))
+
+
+def test_what_the_explorer_offers_before_the_page_has_run_has_what_the_page_runs():
+    results = executed("paper_c", until="judging").results
+    offered, ran = paper_c.of_paper(), paper_c.explorer_conditions(results, of_paper=True)
+    assert [*offered] == [*ran]
+    for name, result in ran.items():
+        assert (offered[name].agent, offered[name].world) == (result.agent, result.world)
+
+
+def touching(*touches, steps=1_000):
+    """A result of runs that touch so many green creeps in every bin from the tenth of the run on, and earn as much."""
+    condition = Condition(network_c([2]), WaterWorld(), steps, len(touches))
+    (bins,) = simulate(network_c([2]), WaterWorld(), steps=steps, runs=1).time.shape
+    hits = np.zeros((len(touches), bins, 2), np.int16)
+    hits[:, bins // 10:, 0] = np.array(touches)[:, None]
+    return Result(condition, hits[..., 0].astype(np.float32), hits)
+
+
+def test_a_run_that_touches_nothing_at_the_end_stands_still():
+    result = touching(0, 1, 0)
+    assert paper_c.still(result).tolist() == [True, False, True]
+    assert "| C | 2 of 3 | 67 |" in paper_c.standing({"C": touching(0, 1, 0, steps=15_000)})
+
+
+def test_ratios_of_runs_that_do_not_stand_still_leave_the_others_out():
+    alone = {"object vectors alone": touching(0, 1), "both in one layer": touching(1, 1)}
+    greedy = {"C": touching(0, 2), "D": touching(0, 3), "places alone": touching(1, 2), **alone}
+    exploring = {"C": touching(0, 0), "D": touching(4, 4), "places alone": touching(0, 1), **alone}
+    text = paper_c.explored(greedy, exploring)
+    assert re.search(r"without desires \| 1.00 \S+ \S+ \(places alone\) \| 4.00 .*\(both in one layer\)", text)
+    assert "| D / C | 1.50" in text
+    assert "| D / C, of runs that do not stand still | 1.50 | no runs |" in text
+
+
+def test_the_stillest_run_goes_on_as_before_unless_its_agent_changes():
+    result = simulate(network_c([2, 3]), WaterWorld(), steps=3_000, runs=3, seed=5)
+    run, k = paper_c.stillest(result)
+    assert run.step == 3_000 and k == result.hit_rate(0.8, 1).sum(axis=1).argmin()
+    straight = Run(result.agent, result.world, 5, k)
+    straight.advance(3_000)
+    assert np.array_equal(paper_c.path_as(run, run.agent).positions, straight.record(15_000).positions)
+    other = replace(run.agent, policy=Policy(1.0))
+    recorded = {"none": paper_c.path_as(run, run.agent), "random": paper_c.path_as(run, other)}
+    (none, random) = paper_c.paths(run, recorded).splitlines()[2:]
+    assert none.startswith("| none |") and random.startswith("| random |") and none[7:] != random[9:]
+    assert run.step == 3_000
+
+
+def test_what_a_node_says_is_weighted_by_its_gain():
+    run = Run(network_c([2, 3], place_gain=0.0), WaterWorld())
+    run.advance(20_000)
+    place, objects = paper_c.says(run).splitlines()[2:]
+    assert place.startswith("| PC | 0.0000 | 0.0000 | 0.0000 | 0.0000 |") and objects.startswith("| OVC |")
