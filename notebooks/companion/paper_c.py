@@ -13,7 +13,7 @@ from neorl.drawing.boards import MARGIN, desire_colour
 from neorl.drawing.curves import draw_sums
 from neorl.drawing.network_figures import HEAD, LARGEST, draw_into, laid_out, write
 from neorl.drawing.style import CURVES, INK, axes_or_new, looks, width_of_figures
-from companion.thesis.reading import LENGTHS, NODES, READINGS, conditions
+from companion.thesis.reading import A_LITTLE, LENGTHS, NODES, READINGS, conditions
 from companion.thesis.statements import STATEMENTS
 from companion.thesis.verdict import FINAL
 from neorl.experiments.run import Run
@@ -138,7 +138,8 @@ def standing(results):
     """How many runs of each agent stand still at the end, and how many minutes pass without a touch, in Markdown."""
     rows = [[name, _of_runs(result), number(100 * np.mean(_touches_by_minute(result) == 0), 0)]
             for name, result in results.items()]
-    return table(["Agent", "Runs that stand still at the end", "Minutes without a touch, % of all"], rows)
+    return table(["Agent", f"Stand still: finally fewer than {TOUCHED} touches a second",
+                  "Minutes without a touch, % of all"], rows)
 
 
 def _of_runs(result):
@@ -203,8 +204,8 @@ def explored(greedy, exploring):
               ["D / C", *(_over(final["D"], final["C"]) for final in every)],
               ["D / C, of runs that do not stand still", *(_over(final["D"], final["C"]) for final in moving)]]
     return "\n\n".join([
-        table(["Agent", "Reward per second, greedy", "Stand still", "Exploring", "Stand still"], rows),
-        table(["Final rewards", "Greedy", "Exploring"], ratios)])
+        table(["Agent", "Reward per second, greedy", "Stand still", f"With ε {A_LITTLE}", "Stand still"], rows),
+        table(["Final rewards", "Greedy", f"With ε {A_LITTLE}"], ratios)])
 
 
 def _over(rewards, others):
