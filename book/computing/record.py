@@ -8,6 +8,7 @@
 3. The record is committed, and what the front page, the page of claims and the README show. It holds as long as runs
    have the same bits and the readings the same choices. So it has a *sample*, a run of each of some conditions under
    both readings, which a test recomputes (`moved`).
+4. Beside it, `curves.json` has the means of all conditions over their runs, which pages draw behind few runs of theirs.
 """
 
 import datetime
@@ -20,43 +21,53 @@ from dataclasses import replace
 
 import numpy as np
 from companion.chapter_5 import trials
-from companion.page import report
+from companion.page import behind, report
+from companion.paper_a import squares_entered
 from companion.page.report import RECORD
 from companion.paper_b.trials import mean_stays
 from companion.thesis import claims
-from companion.thesis.reading import LENGTHS, NAMES, PRIMES, READINGS, conditions, judge
+from companion.thesis.reading import GROUPS, LENGTHS, NAMES, PRIMES, READINGS, conditions, judge
+from companion.thesis.measures import FINAL
 from companion.thesis.statements import STATEMENTS
 
 from computing.compute import ROOT, records
 from computing.verify import recomputed
+from neorl import Condition, WaterWorld, forager
 from neorl.common.files import write_whole
 from neorl.experiments.condition import source_digest
 from neorl.experiments.simulation import sweep
+from neorl.statistics import binned_rate, estimate
 
-SEED = 20_261_128
-CALIBRATED = {"layers": 500, "single": 200, "modal": 500, "pace": 500, "networks": 1_000, "revaluing": 200,
-              "resolutions": 100, "long": 20}
+SEED = 20_261_129
+CALIBRATED = {"layers": 500, "single": 200, "modal": 500, "pace": 500, "networks": 1_000, "revaluing": 100,
+              "resolutions": 100, "long": 10, "exploring": 100, "grown": 100, "wanted": 50}
 RUNS = {"claims": CALIBRATED, "letter": CALIBRATED | dict.fromkeys(
-    ("layers", "modal", "pace", "networks", "resolutions"), 200)}  # where most is clear
+    ("layers", "modal", "pace", "networks"), 200) | {"single": 100}}  # where most is clear
 CONTROLS = 1_000  # runs of Brownian motion
 OF_PAGES = 100  # runs of claims that pages judge
-AT_50 = {"layers": 500, "single": 200}  # of the calibrated reading with paper A at 50 steps per second
+AT_50 = {"layers": 200, "single": 100}  # of the calibrated reading with paper A at 50 steps per second
+FORAGER = Condition(forager(), WaterWorld(n_creeps=3), LENGTHS["A"], OF_PAGES, SEED)  # of the page beyond the thesis
 REMEDY = "make record"
 SAMPLED = (("brownian", 8), ("layer", 7), "layers", ("single", 50), ("place", "all"), ("objects", "all"), "both",
            *(("network", name) for name in "ABCD"), "revalued")
 
 
 def main():
-    if changed := output("git", "status", "--porcelain", "--", ".", f":!{RECORD.relative_to(ROOT)}"):
+    if changed := output("git", "status", "--porcelain", "--", ".",
+                         *(f":!{path.relative_to(ROOT)}" for path in (RECORD, behind.CURVES))):
         sys.exit(f"the work tree must be clean, so that the commit has all that was computed, but it has:\n{changed}")
     content = {part: {} for part in report.PARTS}
     if RECORD.exists():
         content |= json.loads(RECORD.read_text(encoding="utf-8"))
     for part, of_pages in built().items():
         content[part] = content[part] | of_pages
+    curves = {}
     for name, reading in READINGS.items():
         part = report.PART_OF[name]
-        content[part] = content[part] | report.kept(of_reading(reading, RUNS[part]).values())
+        results = results_of(reading, RUNS[part])
+        content[part] = content[part] | report.kept(of_reading(results, RUNS[part]).values())
+        curves[name] = {behind.words(key): curve(result) for key, result in results.items()}
+    curves["calibrated"]["forager"] = curve(next(sweep([FORAGER])))
     at_50 = READINGS["calibrated"].varied(paper_a_fps=50)
     content |= {"paper A at 50": report.kept(judge(results_of(at_50, AT_50)).values()),
                 "commit": output("git", "rev-parse", "--short", "HEAD"), "date": f"{datetime.date.today()}"}
@@ -64,6 +75,7 @@ def main():
         sys.exit(f"every claim must be judged, but not {', '.join(missing)}: make book RUNS={OF_PAGES}, then {REMEDY}")
     content = rounded(content) | {"sample": sample()}
     write_whole(RECORD, (json.dumps(content, indent=1, sort_keys=True, ensure_ascii=False) + "\n").encode())
+    write_whole(behind.CURVES, (json.dumps(rounded(curves, 4), sort_keys=True) + "\n").encode())
 
 
 def built():
@@ -80,13 +92,21 @@ def built():
     return enough | ({"shares": found["shares"]} if found["shares"] else {})
 
 
-def of_reading(reading, runs):
+def of_reading(results, runs):
     """The claims about the papers' agents under a reading: {name: `Claim`}. runs: {group of conditions: number}."""
-    results = results_of(reading, runs)
     both, place = (replace(results[key].condition, runs=runs["revaluing"]) for key in ("both", ("place", "all")))
-    results["moved"] = {"both": trials.distances(both).means, "place cells": trials.distances(place).means}
+    moved = {"both": trials.distances(both).means, "place cells": trials.distances(place).means}
     stays = mean_stays(replace(place, runs=OF_PAGES))
-    return judge(results) | {"T8": claims.judge_time_scale(PRIMES, stays.seconds, stays.without)}
+    squares = {behind.words(key): explored(results[key].condition) for key in GROUPS["layers"]}
+    together, chance = (squares.pop(name) for name in ("layers", "brownian 8"))
+    return judge(results | {"moved": moved}) | {
+        "T8": claims.judge_time_scale(PRIMES, stays.seconds, stays.without),
+        "T9": claims.judge_exploration(together, squares, chance)}
+
+
+def explored(condition):
+    """The squares of the board that the first runs of a condition enter in the first tenth of a run, (runs,)."""
+    return squares_entered(condition.agent, condition.world, LENGTHS["A"] // 10, OF_PAGES, SEED)[:, -1].astype(float)
 
 
 def results_of(reading, runs):
@@ -98,18 +118,27 @@ def results_of(reading, runs):
     results, began = {}, time.monotonic()
     for key, condition in wanted.items():
         (results[key],) = sweep([condition])
-        print(f"{_words(key)}: {condition.runs} runs, {time.monotonic() - began:.0f} s", flush=True)
+        print(f"{behind.words(key)}: {condition.runs} runs, {time.monotonic() - began:.0f} s", flush=True)
     return results
+
+
+def curve(result):
+    """The mean reward per second of a result's runs over time, in the whole and finally, as `behind.Recorded` has it.
+
+    Intervals are those of a normal distribution, since runs are many.
+    """
+    rates = binned_rate(result, min(behind.BINS, result.rewards.shape[1]))
+    error = 1.96 * rates.std(axis=0, ddof=1) / np.sqrt(result.runs)
+    mean = rates.mean(axis=0)
+    return {"runs": result.runs, "minutes": result.seconds / 60, "curve": np.array(
+        [mean, mean - error, mean + error]).tolist(), "whole": estimate(np.mean, result.rate()),
+        "final": estimate(np.mean, result.rate(*FINAL))}
 
 
 def sample():
     """The first run of each condition under each reading, as `summary` has it: {reading: {condition: [...]}}."""
     wanted = {NAMES[name]: conditions(reading, LENGTHS["B"], 1, SEED) for name, reading in READINGS.items()}
-    return {name: {_words(key): summary(made[key]) for key in SAMPLED} for name, made in wanted.items()}
-
-
-def _words(key):
-    return key if isinstance(key, str) else " ".join(map(str, key))
+    return {name: {behind.words(key): summary(made[key]) for key in SAMPLED} for name, made in wanted.items()}
 
 
 def summary(condition):
@@ -125,9 +154,9 @@ def moved(record):
             if record["sample"].get(reading, {}).get(key) != run]
 
 
-def rounded(found):
-    """The same findings with numbers of six significant digits."""
-    return json.loads(json.dumps(found), parse_float=lambda text: float(f"{float(text):.6g}"))
+def rounded(found, digits=6):
+    """The same findings with numbers of some significant digits."""
+    return json.loads(json.dumps(found), parse_float=lambda text: float(f"{float(text):.{digits}g}"))
 
 
 def output(*command):
