@@ -11,6 +11,7 @@ from types import SimpleNamespace
 from unittest.mock import patch
 
 from computing.cells import tags, with_values
+import numpy as np
 from markdown_it import MarkdownIt
 from matplotlib import pyplot as plt
 from matplotlib.text import Annotation, Text
@@ -23,6 +24,7 @@ ALSO_SMALL = {"alternatives": {"steps": 3_000}, "calibration": {"sample": 1, "st
               "other_spaces": {"decisions": 200}, "your_research": {"steps": 2_000}}
 WORDS = {"dashed": r"[Dd]ashed", "thesis": r"the (thesis|paper)('s number| reports)"}  # what speaks of a part
 LAST = {"calibrated": None, "letter": "judging"}  # of the cells of a page under its readings, one of which is run whole
+NUMBER_SHOWN = re.compile(r"(-?\d+(?:\.\d+)?)(?: \[[^]]*\])?(?=,| and |\.$)")  # in what a figure says it shows
 HIDDEN = {"remove-input", "hide-input", "hide-cell"}
 PART = "part-of-experiment"  # the tag of folded cells below the experiment that run more
 
@@ -68,7 +70,9 @@ def few_resamples():
 
 @cache
 def executed(page, changes=(), until=None, **parameters):
-    """The names that a page defines, run at a small size, as attributes, and `parts_drawn`, of figures by cell.
+    """The names that a page defines, run at a small size, as attributes, and what it draws, by cell.
+
+    That is `parts_drawn`, and `numbers_shown`: what a figure says that it shows, with the numbers in it, (words, numbers).
 
     changes: pairs (text, other text) of its code, each of which must be there. until: the last cell to run, of which
     there must be one, or None for the whole page. parameters: its own.
@@ -78,15 +82,43 @@ def executed(page, changes=(), until=None, **parameters):
     for text, other in changes:
         assert any(text in cell for cell in cells.values()), text
         cells = {name: cell.replace(text, other) for name, cell in cells.items()}
-    names, drawn = {"__name__": f"cells_of_{page}"}, {}
+    names, drawn, shown = {"__name__": f"cells_of_{page}"}, {}, {}
     with few_resamples(), plt.rc_context(), redirect_stdout(None):
         for name, cell in cells.items():
-            exec(compile(cell, f"{page}.ipynb, {name}", "exec"), names)
+            last = run_cell(cell, f"{page}.ipynb, {name}", names)
             drawn[name] = parts()
+            if words := getattr(last, "metadata", None) and last.metadata.get("found"):
+                shown[name] = words, numbers_drawn()
             plt.close("all")
             if name == until:
                 break
-    return SimpleNamespace(**names, parts_drawn=drawn)
+    return SimpleNamespace(**names, parts_drawn=drawn, numbers_shown=shown)
+
+
+def run_cell(cell, title, names):
+    """Run a cell, and return the value of its last expression, or None."""
+    tree = ast.parse(cell)
+    last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
+    exec(compile(tree, title, "exec"), names)
+    return eval(compile(ast.Expression(last.value), title, "eval"), names) if last else None
+
+
+def numbers_drawn():
+    """The numbers that lines of the open figures show: their coordinates, and of curves the mean of the last fifth."""
+    lines = [line for number in plt.get_fignums() for axes in plt.figure(number).axes for line in axes.lines]
+    data = [np.asarray(each, float) for line in lines for each in line.get_data() if np.ndim(each)]
+    return np.concatenate([*data, [each[-(-4 * len(each) // 5):].mean() for each in data if len(each) > 5]])
+
+
+def assert_captions_end_with_numbers_of_their_figures(page):
+    """Assert that each number that a figure says it shows is in the figure. page: as `executed`."""
+    assert page.numbers_shown
+    for name, (words, drawn) in page.numbers_shown.items():
+        numbers = NUMBER_SHOWN.findall(words.replace("−", "-"))
+        assert numbers, words
+        for number in numbers:
+            near = 0.006 if abs(float(number)) < 10 else 0.51
+            assert np.abs(drawn - float(number)).min() <= near, (name, words, number)
 
 
 def parts():

@@ -165,8 +165,8 @@ def sections(record, found):
             "Each row sets one choice of the calibrated reading back to the letter and runs the papers again. A claim "
             "is lost if its means no longer agree with the thesis, by more than two standard errors, and gained if "
             f"they come to agree. Of the {_departing()} choices that depart from the letter, {len(found.flips)} were "
-            f"set back, in {_runs_set_back(found)} runs of each condition, fewer than the record has; the table has the "
-            f"{DECIDING} that flip most claims. [All choices](chapters/assumptions.ipynb) are on the next page.",
+            f"set back, in {_runs_set_back(found)} runs of each condition, fewer than the record has; the table has "
+            f"the {DECIDING} that flip most claims. [All choices](chapters/assumptions.ipynb) are on the next page.",
             decides(found)),
         "Fails in any reading, and why": (
             "However the gaps are filled, these do not come out as stated.", fails(record)),

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
-from page_cells import LAST, assert_captions_and_prose_speak_of_what_is_drawn, executed, few_resamples
+from page_cells import (LAST, assert_captions_and_prose_speak_of_what_is_drawn,
+                        assert_captions_end_with_numbers_of_their_figures, executed, few_resamples)
 
 from companion import paper_a
 from companion.page.judging import by_condition
@@ -88,6 +89,7 @@ def test_nothing_is_judged_on_another_board_and_variations_are_of_what_was_run()
 @pytest.mark.parametrize("page", [other_maps, other_board])
 def test_captions_and_prose_speak_of_what_is_drawn(page):
     assert_captions_and_prose_speak_of_what_is_drawn("paper_a", page().parts_drawn)
+    assert_captions_end_with_numbers_of_their_figures(page())
 
 
 def test_the_explorer_offers_what_was_run_by_the_paper_s_figures():

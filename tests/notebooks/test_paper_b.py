@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from page_cells import LAST, assert_captions_and_prose_speak_of_what_is_drawn, executed
+from page_cells import (LAST, assert_captions_and_prose_speak_of_what_is_drawn,
+                        assert_captions_end_with_numbers_of_their_figures, executed)
 
 import neorl
 from companion.paper_b import figures, judgement
@@ -58,6 +59,8 @@ def test_only_claims_about_what_was_run_are_judged(of_others):
 
 def test_captions_and_prose_speak_of_what_is_drawn(of_others):
     assert_captions_and_prose_speak_of_what_is_drawn("paper_b", of_others.parts_drawn)
+    for page in (of_others, judged("calibrated")):  # two runs, and eleven
+        assert_captions_end_with_numbers_of_their_figures(page)
 
 
 def test_a_claim_is_not_judged_if_what_was_run_for_it_is_not_the_paper_s():
