@@ -72,7 +72,7 @@ def few_resamples():
 def executed(page, changes=(), until=None, **parameters):
     """The names that a page defines, run at a small size, as attributes, and what it draws, by cell.
 
-    That is `parts_drawn`, and `numbers_shown`: what a figure says that it shows, with the numbers in it, (words, numbers).
+    That is `parts_drawn`, and `numbers_shown`: what a figure says that it shows, and its numbers, (words, numbers).
 
     changes: pairs (text, other text) of its code, each of which must be there. until: the last cell to run, of which
     there must be one, or None for the whole page. parameters: its own.

@@ -1,7 +1,9 @@
 """The record: its content, whether it still holds, and folds that explain their verdicts."""
 
 import json
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from computing import record
 from hypothesis import given
@@ -77,13 +79,15 @@ def made(tmp_path, monkeypatch):
 
     The record has paper A's groups alone, with a few runs of a few steps each.
     """
-    page, few = tmp_path / "page.json", {"layers": 2, "revaluing": 1}
+    page, few = tmp_path / "page.json", {"layers": 2}
     for name, value in {"RECORD": tmp_path / "record.json", "SAMPLED": (("single", 10), "layers"), "ROOT": tmp_path,
-                        "RUNS": {"claims": few, "letter": few}, "AT_50": {"layers": 2}, "CONTROLS": 2, "OF_PAGES": 2,
-                        "LENGTHS": {"B": 3_000}, "records": lambda: {"page": page}}.items():
+                        "RUNS": {"claims": few, "letter": few},
+                        "FORAGER": replace(record.FORAGER, steps=600, runs=2), "AT_50": {"layers": 2},
+                        "CONTROLS": 2, "OF_PAGES": 2, "LENGTHS": {"A": 3_000, "B": 3_000},
+                        "records": lambda: {"page": page}}.items():
         monkeypatch.setattr(record, name, value)
-    monkeypatch.setattr(record, "of_reading",
-                        lambda reading, runs: record.judge(record.results_of(reading, {"layers": 2})))
+    monkeypatch.setattr(record, "of_reading", lambda results, runs: record.judge(results))
+    monkeypatch.setattr(record.behind, "CURVES", tmp_path / "curves.json")
 
     def made(changed="", **findings):
         page.write_text(json.dumps(FINDINGS | {"source": source_digest()} | findings))
@@ -102,6 +106,11 @@ def test_a_record_has_claims_of_its_own_runs_and_those_of_pages_is_stable_and_no
     found = json.loads(text)
     assert made() == text and found["commit"] == "abc1234"
     assert {name for name in STATEMENTS if found["claims"][name] != CLAIM} == OF_RUNS == {*found["letter"]}
+    curves = json.loads(record.behind.CURVES.read_text())["calibrated"]
+    assert {*curves} == {"brownian 8", "layer 3", "layer 7", "layer 23", "layers", "forager"}
+    assert curves["layer 7"]["runs"] == 2
+    assert np.shape(curves["layer 7"]["curve"]) == (3, 50)
+    assert np.mean(curves["layer 7"]["curve"][0]) == pytest.approx(curves["layer 7"]["whole"][0], abs=0.01)
     assert {*found["paper A at 50"]} == OF_RUNS and found["claims"]["A7"]["runs"] == 2
     assert record.moved(found) == [] and {*found["sample"]} == {"to the letter", "calibrated"}
     monkeypatch.setattr(record, "SEED", 1)
