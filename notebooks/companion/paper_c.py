@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from companion.page.wording import number, table
+from companion.page.behind import add_recorded_levels, add_recorded_rates
 from companion.page.thesis_figures import mark_levels
 from neorl.drawing.boards import MARGIN, desire_colour
 from neorl.drawing.curves import draw_sums
@@ -47,6 +48,7 @@ def draw_networks(agents):
 def draw_rates(results, of_paper):
     """Draw reward per second, and for the paper's own networks what D has to exceed."""
     axes = draw_sums([(name, [result]) for name, result in results.items()], STYLES, points=25)
+    add_recorded_rates(axes, results, STYLES)
     if of_paper:
         level = max(0.0, DRASTIC * results["C"].rate(*FINAL).mean())
         mark_levels(axes, {f"C4: D beyond {DRASTIC} × C": level})
@@ -132,6 +134,7 @@ def draw_runs(results):
     axes.axvline(0, color=INK, linewidth=0.7, zorder=1)
     axes.set(yticks=range(len(results)), yticklabels=results, xlabel="reward per second in the last fifth of a run")
     axes.invert_yaxis()
+    add_recorded_levels(axes, range(len(results)), results)
 
 
 def standing(results):

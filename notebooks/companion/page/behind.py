@@ -59,13 +59,13 @@ def few(results):
     return {name: each for name, each in found.items() if each}
 
 
-def add_recorded_rates(axes, results):
+def add_recorded_rates(axes, results, styles=None):
     """Draw the recorded reward per second behind curves of `draw_proficiency`, and return the axes.
 
-    results: {name: `Result`}, as drawn.
+    results: {name: `Result`}, as drawn. styles: as in `draw_sums`, where the curves have styles of their own.
     """
     known, end = few(results), axes.get_xlim()
-    for name, (colour, _) in zip(results, looks(len(results))):
+    for name, (colour, _) in zip(results, styles or looks(len(results))):
         if name in known:
             runs = known[name]
             xs = (np.arange(BINS) + 0.5) / BINS * runs.minutes
