@@ -11,7 +11,7 @@ from companion.thesis.reading import READINGS
 from neorl.statistics import Estimate
 
 WORDS = tomllib.loads((resources.files(__package__) / "answers.toml").read_text("utf-8"))
-NUMBER = re.compile(r"\{(\w+)(?:: ([^}%]+?))?( %)?\}")
+NUMBER = re.compile(r"\{(\w+)(?:: ([^}%[]+?))?( %| \[\])?\}")
 BOLD = re.compile(r"\*\*(.+?)\*\*")
 
 
@@ -21,21 +21,24 @@ def answer(page):
     return BOLD.sub(r"<strong>\1</strong>", NUMBER.sub(lambda found: _number(*found.groups()), words))
 
 
-def _number(name, what, percent):
-    value = _value(name, what)
-    if isinstance(value, int):
-        return str(value)
-    return f"{100 * value:.0f}\u00a0%" if percent else str(Estimate(value, value, value))
+def _number(name, what, form):
+    found = _found(name, what)
+    if isinstance(found, int):
+        return str(found)
+    value, *_ = found
+    if form == " %":
+        return f"{100 * value:.0f}\u00a0%"
+    return str(Estimate(*found) if form else Estimate(value, value, value))
 
 
-def _value(name, what):
+def _found(name, what):
     if name == "choices":
         return _choices()[what]
     if name in ("early", "final", "whole"):
         runs = behind.recorded_runs("calibrated", what)
-        return runs.curve[0][0] if name == "early" else getattr(runs, name).value
+        return runs.curve[:, 0] if name == "early" else getattr(runs, name)
     claim = report.record()["claims"][name]
-    return (claim["numbers"][what][0] if what else claim["here"])[0]
+    return claim["numbers"][what][0] if what else claim["here"]
 
 
 def _choices():
