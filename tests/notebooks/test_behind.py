@@ -54,3 +54,14 @@ def test_levels_stand_behind_points_and_behind_rows(xs, value):
     assert (axes.get_xlim() if isinstance(xs, range) else axes.get_ylim())[1] > 0.3  # which was too narrow
     (point,) = axes.lines
     assert (point.get_xdata()[0], point.get_ydata()[0]) == value and len(axes.collections) == 1
+
+
+def test_totals_and_numbers_of_claims_stand_behind_few_runs(monkeypatch):
+    axes = behind.add_recorded_totals(drawing.draw_accumulated({"C": result()}), {"C": result()})
+    pale = max(axes.lines, key=lambda line: line.get_linewidth())
+    assert len(pale.get_xdata()) == behind.BINS + 1 and pale.get_ydata()[-1] == pytest.approx(0.15 * 6_000)
+    found = {"runs": 100, "numbers": {"world, arm": [[0.9, 0.8, 1.0], "", "", "asked"]}}
+    monkeypatch.setattr(behind.report, "record", lambda: {"claims": {"G2": found}})
+    for runs, drawn in ((3, 1), (10, 0)):
+        scores = {"arm": (np.ones(runs), np.ones(runs)), "pool": (np.ones(runs), np.ones(runs))}
+        assert len(behind.add_recorded_numbers(plt.figure().add_subplot(), scores, "G2", "world").lines) == drawn

@@ -183,6 +183,7 @@ def draw_worlds(scores):
                      "probability of beating a random agent")
     axes.set_xlim(0, 1.04)
     axes.axvline(0.5, color=INK, linewidth=0.7)
+    return axes
 
 
 def draw_rows(estimates, label, ax=None):

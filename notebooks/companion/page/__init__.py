@@ -5,7 +5,8 @@ judge the claims about what was run, `verdicts` shows these beside the record, a
 numbers, tables and parts of figures.
 """
 
-from companion.page.behind import add_recorded_levels, add_recorded_rates
+from companion.page.behind import (add_recorded_levels, add_recorded_numbers, add_recorded_rates,
+                                   add_recorded_totals)
 from companion.page.beginning import begin, listed, source
 from companion.page.captions import final_levels, found
 from companion.page.judging import by_condition, judge, judge_papers, papers_conditions
@@ -15,6 +16,7 @@ from companion.page.report import comparison, errata, save, verdicts
 from companion.page.thesis_figures import mark_levels
 from companion.page.wording import number, scientific, table
 
-__all__ = ["UNDER_WHITE", "add_arrow", "add_curves", "add_recorded_levels", "add_recorded_rates", "answer", "begin",
-           "by_condition", "comparison", "draw_means", "errata", "final_levels", "found", "judge", "judge_papers",
-           "listed", "mark_levels", "number", "papers_conditions", "save", "scientific", "source", "table", "verdicts"]
+__all__ = ["UNDER_WHITE", "add_arrow", "add_curves", "add_recorded_levels", "add_recorded_numbers",
+           "add_recorded_rates", "add_recorded_totals", "answer", "begin", "by_condition", "comparison", "draw_means",
+           "errata", "final_levels", "found", "judge", "judge_papers", "listed", "mark_levels", "number",
+           "papers_conditions", "save", "scientific", "source", "table", "verdicts"]

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from companion import thesis
-from companion.page import judging
+from companion.page import judging, report
 from companion.thesis.reading import LENGTHS, READINGS, conditions
 from neorl import Condition, WaterWorld, forager
 from neorl.drawing.style import INK, SMALL, looks
@@ -73,35 +73,68 @@ def add_recorded_rates(axes, results, styles=None):
             axes.fill_between(xs, low, high, color=colour, alpha=PALE, linewidth=0, zorder=1)
             axes.plot(xs, mean, color=colour, alpha=2 * PALE, linewidth=4, zorder=1)
     axes.set_xlim(end)
-    return _named(axes, known)
+    return _named(axes, [runs.runs for runs in known.values()])
 
 
-def add_recorded_levels(axes, xs, results, share="final", colour=INK):
+def add_recorded_totals(axes, results):
+    """Draw the recorded mean reward so far behind curves of `draw_accumulated`, and return the axes.
+
+    results: {name: `Result`}, as drawn.
+    """
+    known, end = few(results), axes.get_xlim()
+    for (name, result), (colour, _) in zip(results.items(), looks(len(results))):
+        if name in known:
+            seconds = 60 * known[name].minutes * np.arange(BINS + 1) / BINS
+            total = np.append(0, known[name].curve[0].cumsum()) * seconds[1]
+            axes.plot(seconds * result.world.fps / 1_000, total, color=colour, alpha=2 * PALE, linewidth=4, zorder=1)
+    axes.set_xlim(end)
+    return _named(axes, [runs.runs for runs in known.values()])
+
+
+def add_recorded_levels(axes, xs, results, share="final"):
     """Draw recorded levels behind the points of a sweep or of rows, and return the axes.
 
     xs: where each is; or, for rows, the rows from the top as a `range`. results: {name: `Result`}. share: "final" or
     "whole" run.
     """
-    known, rows, reached = few(results), isinstance(xs, range), []
-    for at, name in zip(xs, results):
-        if name in known:
-            value, low, high = getattr(known[name], share)
-            (axes.hlines if rows else axes.vlines)(at, low, high, color=colour, alpha=PALE, linewidth=8, zorder=1)
+    known = few(results)
+    return _add_levels(axes, xs, {name: getattr(known[name], share) if name in known else None for name in results},
+                       [runs.runs for runs in known.values()])
+
+
+def add_recorded_numbers(axes, results, claim, what):
+    """Draw the recorded numbers of a claim behind the rows of a figure of few runs, and return the axes.
+
+    results: {row: arrays (runs, …)}, of what each row shows. what: the name of the numbers, before that of the row.
+    """
+    found = report.record()["claims"][claim]
+    if min(len(each) for pair in results.values() for each in pair) >= FEWEST_RUNS:
+        return axes
+    return _add_levels(axes, range(len(results)), {
+        name: Estimate(*found["numbers"][f"{what}, {name}"][0]) if f"{what}, {name}" in found["numbers"] else None
+        for name in results}, [found["runs"]])
+
+
+def _add_levels(axes, xs, estimates, runs):
+    rows, reached = isinstance(xs, range), []
+    for at, estimate in zip(xs, estimates.values()):
+        if estimate:
+            value, low, high = estimate
+            (axes.hlines if rows else axes.vlines)(at, low, high, color=INK, alpha=PALE, linewidth=8, zorder=1)
             point = (value, at) if rows else (at, value)
-            axes.plot(*point, color=colour, alpha=2 * PALE, marker="o", markersize=9, zorder=1)
+            axes.plot(*point, color=INK, alpha=2 * PALE, marker="o", markersize=9, zorder=1)
             reached += [low, high]
     if reached:
         begin, end = axes.get_xlim() if rows else axes.get_ylim()
         margin = 0.04 * (end - begin)
         limits = min(begin, min(reached) - margin), max(end, max(reached) + margin)
         axes.set(**{"xlim" if rows else "ylim": limits})
-    return _named(axes, known)
+    return _named(axes, runs)
 
 
-def _named(axes, known):
-    if known:
-        numbers = sorted({runs.runs for runs in known.values()})
-        some = " to ".join(f"{number:,}" for number in dict.fromkeys((numbers[0], numbers[-1])))
+def _named(axes, runs):
+    if runs:
+        some = " to ".join(f"{number:,}" for number in dict.fromkeys((min(runs), max(runs))))
         axes.annotate(f"pale: the record, {some} runs", (0, 1), xycoords="axes fraction", xytext=(0, 4),
                       textcoords="offset points", fontsize=SMALL, color=INK, va="bottom")
     return axes
