@@ -87,9 +87,11 @@ def row(table, name):
     return found
 
 
-def test_verdicts_of_few_runs_stand_beside_the_record_with_the_number_of_runs():
+def test_verdicts_of_few_runs_are_the_record_s_alone():
     few = [replace(each, runs=4) for each in networks()]
     said = report.verdicts(few, "letter")
-    assert "This page has 4 runs of each condition; verdicts need 10 of full length." in said and "●" not in said[:400]
+    assert "This page has 4 runs of each condition; verdicts need 10 of full length, so these are the record’s." in said
+    assert "| Claim | Recorded |" in said and str(few[0].here) not in row(said, "C1")
     assert f"{report.number(report.record()['letter']['C2'])}, " in row(said, "C2")
+    assert "| Claim | This page | Recorded |" in report.verdicts(networks())
     assert report.verdicts([]) == "" and "verdicts need" not in report.verdicts(networks())

@@ -41,20 +41,24 @@ MISSING = None, "", "", ""  # a number under one reading that the other has not
 def verdicts(claims, reading="calibrated"):
     """Claims that a page has judged by its own runs, beside the record, as a small Markdown table; "" without claims.
 
+    Runs that are too few or too short for a verdict are not shown: the recorded verdicts stand alone.
     reading: under which they are, a name in `READINGS`.
     """
     if not claims:
         return ""
     recorded = record()[PART_OF[reading]]
-    rows = [[f"{link(claim.name)} {STATEMENTS[claim.name].short}", _with_symbol(claim.verdict, str(claim.here)),
-             _of_record(recorded.get(claim.name))] for claim in claims]
     runs = min(claim.runs for claim in claims)
     more = " or more" * any(claim.runs > runs for claim in claims)
     few = runs < RUNS_FOR_A_VERDICT or not all(claim.full_length for claim in claims)
-    wanted = f"; verdicts need {RUNS_FOR_A_VERDICT} of full length" * few
-    symbols = legend(verdict for verdict in VERDICTS[:-1] if verdict in {claim.verdict for claim in claims})
+    rows = [[f"{link(claim.name)} {STATEMENTS[claim.name].short}",
+             *([] if few else [_with_symbol(claim.verdict, str(claim.here))]),
+             _of_record(recorded.get(claim.name))] for claim in claims]
+    shown = [each for each in (recorded.get(claim.name, {}).get("verdict") for claim in claims) if each]
+    shown += [] if few else [claim.verdict for claim in claims]
+    symbols = legend(verdict for verdict in VERDICTS[:-1] if verdict in shown)
+    wanted = f"; verdicts need {RUNS_FOR_A_VERDICT} of full length, so these are the record’s" * few
     return box(f"This page has {runs} runs of each condition{more}{wanted}. {symbols}".rstrip(),
-               wording.table(["Claim", "This page", "Recorded"], rows))
+               wording.table(["Claim", *([] if few else ["This page"]), "Recorded"], rows))
 
 
 def comparison(judged):
