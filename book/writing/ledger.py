@@ -9,6 +9,7 @@
 
 from html import escape
 
+import numpy as np
 from companion.page import counts, marks, recorded, report
 from companion.page.opening import anchor
 from companion.study import sensitivity
@@ -74,10 +75,10 @@ def runs_needed(name, found):
     """
     needed = 0.0
     for what, (number, _, mark, _) in found["numbers"].items():
-        if mark != "?" or None in number:
+        value, low, high = report.estimate_of(number)
+        if mark != "?" or not np.isfinite([value, low, high]).all():
             continue
         bounds = recorded.bounds_of(name, what)
-        value, low, high = number
         for end in (bounds.low, bounds.high):
             if low <= end <= high and end != value:
                 half = value - low if end < value else high - value

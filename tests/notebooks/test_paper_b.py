@@ -10,6 +10,7 @@ from page_cells import (LAST, assert_captions_and_prose_speak_of_what_is_drawn,
 import neorl
 from companion.paper_b import figures, judgement
 from companion.page.judging import by_condition
+from companion.page.wording import in_words
 from companion.page.report import CLAIMS_OF
 from companion.thesis.reading import READINGS, conditions
 from neorl.statistics import Estimate
@@ -99,5 +100,6 @@ def test_a_level_that_is_never_reached_has_no_time():
     table = figures.paces({"PC": learning(np.linspace(0, -1, 400)), "PC + OVC": learning(np.linspace(0, 1, 400))}, True)
     both, place = table.splitlines()[2:]
     assert place == "| place | > 160 | never within the run |" and both.endswith("| 15 | 5.41 |")
-    assert figures._time(Estimate(150.0, 140.5, 200.0), 200.0) == "150 [140, never within the run]"
-    assert figures._time(Estimate(150.0, 140.5, 160.0), 200.0) == "150 [140, 160]"
+    assert in_words(Estimate(150.0, 140.5, np.inf)) == "150 [140, never]"
+    assert in_words(Estimate(-np.inf, -np.inf, 3.0)) == "never within the run"
+    assert in_words(Estimate(-7.0, -np.inf, 3.0)) == "−7.00 [never, 3.00]"

@@ -5,6 +5,7 @@ import tomllib
 from importlib import resources
 
 from companion.page import behind, report
+from companion.page.wording import in_words
 from companion.thesis.pins import PINS
 from companion.thesis.priors import WITHIN
 from companion.thesis.reading import READINGS
@@ -25,10 +26,10 @@ def _number(name, what, form):
     found = _found(name, what)
     if isinstance(found, int):
         return str(found)
-    value, *_ = found
+    value, *_ = found = report.estimate_of(found)
     if form == " %":
         return f"{100 * value:.0f}\u00a0%"
-    return str(Estimate(*found) if form else Estimate(value, value, value))
+    return in_words(found if form else Estimate(value, value, value))
 
 
 def _found(name, what):

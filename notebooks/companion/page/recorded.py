@@ -18,6 +18,7 @@ from IPython.display import HTML
 
 from companion.page import answers, counts, marks, report
 from companion.page.opening import CLAIMS_PAGE, link
+from companion.page.wording import in_words
 from companion.thesis.reading import NAMES, READINGS, conditions
 from companion.thesis.statements import STATEMENTS
 from companion.thesis.verdict import belongs
@@ -161,7 +162,7 @@ def _board(creeps):
 
 def _value(number):
     """A number as a record has it, without its interval, as text."""
-    return str(Estimate(number[0], np.nan, np.nan))
+    return in_words(Estimate(report.estimate_of(number).value, np.nan, np.nan))
 
 
 def _title(title):
@@ -196,8 +197,9 @@ def _ours(found, claims_page):
 
 def _scale(bounds, found):
     """A line of the figure, as SVG. found: {reading: a recorded claim}."""
-    numbers = {reading: [end for end in each["here"] if end is not None] for reading, each in found.items()}
-    place = _places(bounds, [end for each in numbers.values() for end in each])
+    numbers = {reading: [end for end in report.estimate_of(each["here"]) if not np.isnan(end)]
+               for reading, each in found.items()}
+    place = _places(bounds, [end for each in numbers.values() for end in each if np.isfinite(end)])
     left, right = (0 if np.isinf(bounds.low) else EDGES[0]), (100 if np.isinf(bounds.high) else EDGES[1])
     parts = [f'<rect class="band" x="{left:.1f}%" width="{right - left:.1f}%" height="100%"/>']
     if bounds.number is not None:
@@ -205,7 +207,8 @@ def _scale(bounds, found):
         parts.append(f'<line class="thesis" x1="{at:.1f}%" x2="{at:.1f}%" y2="100%"/>')
     for reading, (value, *interval) in numbers.items():
         parts.append(_point(reading, place(value), *map(place, interval or (value, value))))
-    words = "; ".join(f"{NAMES[reading]}: {report.number(each)}, {PLACES[bounds.decide(_estimate(each['here']))]}"
+    decided = {reading: bounds.decide(report.estimate_of(each["here"])) for reading, each in found.items()}
+    words = "; ".join(f"{NAMES[reading]}: {report.number(each)}, {PLACES[decided[reading]]}"
                       for reading, each in found.items())
     return (f'<svg role="img" aria-label="{words}; agrees: {bounds}"><title>Agrees: {bounds}. {words}</title>'
             f'{"".join(parts)}</svg>')
@@ -242,10 +245,6 @@ def _marker(reading, x, y):
     if reading == "calibrated":
         return f'<circle cx="{x}" cy="{y}" r="4"/>'
     return f'<svg x="{x}" y="{y}" overflow="visible"><rect x="-3.5" y="-3.5" width="7" height="7"/></svg>'
-
-
-def _estimate(here):
-    return Estimate(*(np.nan if end is None else end for end in here))
 
 
 MARKERS = {reading: f'<svg class="key" role="presentation"><g class="{reading}">{_marker(reading, "50%", 6)}</g></svg>'

@@ -114,7 +114,12 @@ def load(paths):
 
 def number(found):
     """Our number for a claim, with its interval, as text. found: a claim of a record."""
-    return str(Estimate(*(np.nan if each is None else each for each in found["here"])))
+    return wording.in_words(estimate_of(found["here"]))
+
+
+def estimate_of(number):
+    """The `Estimate` of a number as a record has it: a missing bound is null, and an infinite time "inf" or "-inf"."""
+    return Estimate(*(np.nan if end is None else float(end) for end in number))
 
 
 def verdict(record, name):
@@ -166,7 +171,7 @@ def _marked(found, _, mark, role):
 
 
 def _bounded(found):
-    return [float(each) if np.isfinite(each) else None for each in found]
+    return [None if np.isnan(each) else float(each) if np.isfinite(each) else str(float(each)) for each in found]
 
 
 def _of_record(found):

@@ -1,5 +1,11 @@
 """Tables and numbers in Markdown."""
 
+import re
+
+import numpy as np
+
+NEVER = "never within the run"
+
 
 def table(header, rows):
     """A Markdown table from a header and rows, each a sequence of cells of any type that converts to text."""
@@ -11,6 +17,11 @@ def filled(header, rows):
     """A header and rows without the columns that are empty in all rows."""
     kept = [at for at in range(len(header)) if any(row[at] for row in rows)]
     return [header[at] for at in kept], [[row[at] for at in kept] for row in rows]
+
+
+def in_words(estimate):
+    """An `Estimate` as text; an infinite time, or lead in time, is one to a level that is never reached in the run."""
+    return NEVER if np.isinf(estimate.value) else re.sub(r"−?inf", "never", str(estimate))
 
 
 def number(value, digits=2):

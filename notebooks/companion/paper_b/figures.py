@@ -7,20 +7,18 @@
 
 from dataclasses import replace
 
-import numpy as np
 from matplotlib.patches import Circle
 
 from companion.paper_b.receptive_fields import draw_receptive_fields
 from companion.paper_b.trials import values_for_objects
 from companion.page.panels import FILL, add_arrow, mark
 from companion.page.thesis_figures import draw_against_thesis
-from companion.page.wording import table
+from companion.page.wording import in_words, table
 from neorl.core.maps import NresMap
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 from neorl.drawing.boards import as_board, draw_tank, new_boards
 from neorl.drawing.style import AGENT, GREEN, INK
 from neorl.drawing.value_maps import draw_cells, draw_values
-from neorl.statistics import Estimate
 from companion.thesis.measures import minutes_to_own_level
 from companion.thesis.reading import LENGTHS, PRIMES, READINGS, conditions
 from companion.thesis.statements import STATEMENTS
@@ -29,7 +27,6 @@ OBJECT = (0.8, -0.4)  # where the object is as seen from the self, in board widt
 DISC = 0.09  # radius of either, larger than in the tank
 CELLS = {"PC": "place", "OVC": "object-vector", "PC + OVC": "place + object-vector"}  # of the agents, in words
 LABELS = {"PC": "place cells", "OVC": "object-vector\ncells", "PC + OVC": "both"}
-NEVER = "never within the run"
 B3, B4 = STATEMENTS["B3"], STATEMENTS["B4"]
 PC = B3.also["place cells"].number  # per second, and of object-vector cells too: "no loss", section 3.1
 THESIS_LEVELS = {"PC": PC, "OVC": PC, "PC + OVC": B3.bounds.number}
@@ -49,16 +46,7 @@ def paces(paced, of_paper):
     """The minutes to the final level as a Markdown table. paced: {agent: `Result`} of long runs."""
     return table(["Agents", "Thesis", "Here"], [
         [CELLS[agent], THESIS_MINUTES[agent] if of_paper else "–",
-         _time(minutes_to_own_level(paced[agent]), paced[agent].seconds / 60)] for agent in THESIS_MINUTES])
-
-
-def _time(found, whole):
-    """An `Estimate` of minutes in runs of `whole` minutes, as text; the whole run stands for a level never reached."""
-    value, low, high = found
-    if value == whole:
-        return NEVER
-    known, least = (Estimate(each, np.nan, np.nan) for each in (value, low))
-    return f"{known} [{least}, {NEVER}]" if high == whole else str(found)
+         in_words(minutes_to_own_level(paced[agent]))] for agent in THESIS_MINUTES])
 
 
 def modalities():

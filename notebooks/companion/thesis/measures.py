@@ -5,7 +5,8 @@
    or the smallest of several means has the widened intervals of all, since a bootstrapped maximum does not hold with
    95 %.
 2. A *time* is when the mean over runs crosses a level, once it is made monotone by isotonic regression. The first
-   window in which a noisy mean reaches a level comes too early.
+   window in which a noisy mean reaches a level comes too early. A level that is never reached within the run has an
+   infinite time, which enters no mean; of two that are not reached, neither is the sooner.
 3. Rewards are per simulated second, *final* is the last fifth of a run.
 """
 
@@ -27,7 +28,8 @@ class Time(Estimate):
     """An `Estimate` of minutes that knows its resamples, since these may be of two kinds: a level reached, or never."""
 
     def __new__(cls, value, resamples, together=1):
-        low, high = np.quantile(resamples, [0.025 / together, 1 - 0.025 / together])
+        method = "linear" if np.isfinite(resamples).all() else "inverted_cdf"  # which has no mean of two resamples
+        low, high = np.quantile(resamples, [0.025 / together, 1 - 0.025 / together], method=method)
         self = super().__new__(cls, float(value), min(low, value), max(high, value))
         self.resamples = resamples
         return self
@@ -92,24 +94,29 @@ def rank_correlation(*samples, axis):
 def minutes_sooner(quick, slow, share, *others):
     """The simulated minutes by which the mean of a `Result` reaches a level sooner than that of another: `Estimate`.
 
-    The level is `share` of the greatest final level among slow and the others, as uncertain as these. Where it is never
-    reached, the time is the whole run.
+    The level is `share` of the greatest final level among slow and the others, as uncertain as these.
     """
     rivals = (slow, *others)
 
     def statistic(of_quick, *of_rivals, axis):
         level = share * np.max([_mean_of_runs(each.rate(*FINAL)[:, None], runs)
                                 for each, runs in zip(rivals, of_rivals)], axis=0)
-        return _minutes(slow, of_rivals[0], level) - _minutes(quick, of_quick, level)
+        return later(_minutes(slow, of_rivals[0], level), _minutes(quick, of_quick, level))
 
     return _resampled(statistic, quick, *rivals)
+
+
+def later(slow, quick):
+    """How much later one time is than another; 0 if neither is within the run."""
+    neither = np.isinf(slow) & np.isinf(quick)
+    return np.where(neither, 0.0, slow - np.where(neither, 0.0, quick))
 
 
 def minutes_to_own_level(*results, share=0.9, of=lambda minutes: minutes):
     """The simulated minutes until the means of `Result`s reach `share` of their own final levels, as an `Estimate`.
 
-    of: a function of the minutes of each, arrays of one shape, such as their difference. A level that is not positive
-    is never reached.
+    of: a function of the minutes of each, arrays of one shape, such as `later`. A level that is not positive is never
+    reached.
     """
     def statistic(*chosen, axis):
         return of(*(_minutes(result, runs, share * _mean_of_runs(result.rate(*FINAL)[:, None], runs))
@@ -124,8 +131,9 @@ def _resampled(statistic, *results):
     value = statistic(*runs, axis=-1)
     if min(map(len, runs)) < FEWEST_RUNS:
         return Time(value, np.array([np.nan]))
-    found = scipy.stats.bootstrap(runs, statistic, n_resamples=RESAMPLES, vectorized=True, axis=-1, method="percentile",
-                                  rng=np.random.default_rng(0))
+    with np.errstate(invalid="ignore"):  # scipy's own interval, which is not used, has no room for infinite times
+        found = scipy.stats.bootstrap(runs, statistic, n_resamples=RESAMPLES, vectorized=True, axis=-1,
+                                      method="percentile", rng=np.random.default_rng(0))
     return Time(value, found.bootstrap_distribution)
 
 
@@ -137,7 +145,7 @@ def _minutes(result, chosen, level):
     monotone = np.array([scipy.optimize.isotonic_regression(curve).x for curve in curves]).reshape(means.shape)
     reached = (monotone >= level) & (np.asarray(level) > 0)
     middle = (reached.argmax(axis=-1) + 0.5) / means.shape[-1]
-    return np.where(reached.any(axis=-1), middle, 1.0) * result.seconds / 60
+    return np.where(reached.any(axis=-1), middle, np.inf) * result.seconds / 60
 
 
 def _mean_of_runs(rates, chosen):

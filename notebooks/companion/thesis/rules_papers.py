@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from companion.thesis.measures import (EARLY, FINAL, evenness, exact, lead_over_sum, learning_minutes, least,
+from companion.thesis.measures import (EARLY, FINAL, evenness, exact, later, lead_over_sum, learning_minutes, least,
                                        minutes_sooner, minutes_to_own_level, most, rank_correlation, share_over_sum)
 from companion.thesis.statements import STATEMENTS
 from companion.thesis.verdict import (AFTER_TURN, all_of, any_learned, any_of, fewest_runs, judged, lead_over_brownian,
@@ -178,7 +178,7 @@ def judge_modalities(place, objects, both, brownian):
     b3 = judged("B3", estimate(np.mean, joint), runs, {"place cells": estimate(np.mean, pc)})
 
     alone = {"place cells": place, "object-vector cells": objects}
-    sooner = {name: minutes_to_own_level(result, both, of=np.subtract) for name, result in alone.items()}
+    sooner = {name: minutes_to_own_level(result, both, of=later) for name, result in alone.items()}
     lead = {name: estimate(difference, joint, result.rate(*FINAL)) for name, result in alone.items()}
     b6 = judged("B6", (least, "minutes sooner"), runs, {"minutes sooner": sooner, "final lead": lead},
                 shown={"minutes": {name: minutes_to_own_level(result)
@@ -209,7 +209,7 @@ def judge_pace(place, both, brownian):
     Returns a `Claim`.
     """
     long_enough = both.seconds >= 60 * STATEMENTS["B4"].also["place cells"].number or None
-    sooner = {"both, less place cells": minutes_to_own_level(both, place, of=np.subtract)}
+    sooner = {"both, less place cells": minutes_to_own_level(both, place, of=later)}
     return judged("B4", minutes_to_own_level(both), fewest_runs(place, both),
                   {"place cells": minutes_to_own_level(place), **sooner}, parts=[tuple(sooner)],
                   testable=all_of([learned(place, brownian), learned(both, brownian), long_enough]))

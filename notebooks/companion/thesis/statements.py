@@ -38,7 +38,8 @@ class Bounds:
         return None if reaches or math.isnan(found.low) else False
 
     def _below(self, one, other):
-        return (operator.lt if self.open else operator.le)(one, other)
+        no_bound = math.isinf(one) and one == other
+        return (operator.lt if self.open and not no_bound else operator.le)(one, other)
 
     def __str__(self):
         if math.isinf(self.high):
