@@ -7,7 +7,7 @@ import pytest
 from page_cells import executed
 
 from companion.alternatives import contestants, controllers, contests, search, tabular_learners
-from companion.alternatives.contestants import of_thesis
+from companion.alternatives.contestants import BROWNIAN, of_thesis
 from companion.alternatives.contests import BOARDS, Earned
 from companion.page import beginning
 from neorl import Run, WaterWorld, brownian, forager, place_cells, simulate
@@ -141,8 +141,25 @@ def test_every_run_is_stored_once_and_deep_learners_have_three_long_ones_on_each
 def test_a_short_rerun_of_a_deep_learner_equals_the_start_of_its_stored_run(method):
     from companion.alternatives.deep_runs import train
     row = next(row for row in LONG if row[:4] == (method, 3, 600_000, 2))
-    rewards, _, _ = train(method, SETTINGS[method], 3, 6_000, 0, 2)
+    rewards, _, _ = train(method, SETTINGS[method], BOARDS[3], 6_000, 0, 2)
     assert np.array_equal(rewards, row.rewards[:2])
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("method", search.DEEP)
+def test_stored_runs_with_defaults_have_those_of_the_library_on_the_board_of_paper_a(method):
+    from companion.alternatives.deep_runs import row_of
+    row = next(row for row in contests.read(contests.DEFAULTS) if (row.method, row.run) == (method, 1))
+    again = row_of(method, {}, contests.PAPER_A, 6_000, 1)
+    assert np.array_equal(again.rewards, row.rewards[:2]) and f"{again.kilobytes:.4g}" == f"{row.kilobytes:.4g}"
+
+
+def test_runs_with_defaults_are_stored_as_claim_a10_wants_them():
+    from companion.alternatives.deep_runs import DEFAULT_RUNS
+    rows = {row[:4]: row for row in contests.read(contests.DEFAULTS)}
+    assert rows.keys() == {*product(search.DEEP, (8,), (150_000,), range(DEFAULT_RUNS))}
+    assert {len(row.rewards) for row in rows.values()} == {150_000 // contests.MINUTE}
+    assert contests.PAPER_A == WaterWorld(n_creeps=8, win_reward=5.0, fps=50)
 
 
 def test_deep_learners_see_how_fast_creeps_move_nearest_first():
@@ -171,8 +188,8 @@ def test_rates_lie_between_steps_and_levels_are_reached_by_means():
 
 
 @pytest.mark.parametrize("page, judged", [
-    ({}, {"C5": False, "A10": False}), ({"n_creeps": 5}, {"C5": False})])
-def test_claims_are_judged_only_of_the_page_s_own_boards(page, judged):
+    ({}, {"C5": False, "A10": False}), ({"n_creeps": 5}, {"C5": False, "A10": False})])
+def test_claims_are_judged_whatever_the_second_board(page, judged):
     assert {claim.name: claim.full_length for claim in executed("alternatives", **page).judged} == judged
 
 
@@ -180,9 +197,20 @@ def test_claims_are_judged_only_of_the_page_s_own_contestants(monkeypatch):
     page = executed("alternatives")
     results = {creeps: dict(of_board) for creeps, of_board in page.results.items()}
     results[3]["network D, calibrated"] = results[3]["forager"]
-    assert [claim.name for claim in contestants.judge(results, page.boards)] == ["A10"]
+    assert [claim.name for claim in contestants.judge(results, page.boards, page.control)] == ["A10"]
+    assert [claim.name for claim in contestants.judge(page.results, page.boards, page.results[8][BROWNIAN])] == ["C5"]
     monkeypatch.setattr(contestants, "best_settings", lambda: SETTINGS | {"monolithic": SETTINGS["joint cells"]})
-    assert [claim.name for claim in contestants.judge(page.results, page.boards)] == ["A10"]
+    assert [claim.name for claim in contestants.judge(page.results, page.boards, page.control)] == ["A10"]
+
+
+def test_claim_a10_compares_untuned_learners_with_brownian_motion_on_the_board_of_paper_a():
+    control = simulate(brownian(), contests.PAPER_A, steps=150_000, runs=10, progress=False)
+    (claim,) = contestants.untrained(control)
+    first = contests.stored(contests.read(contests.DEFAULTS), search.DEEP, 8, 150_000)
+    assert {what: found.value for what, (found, *_) in claim.numbers.items() if what.startswith("score")} == {
+        **{f"score, {name}": pytest.approx(each.rewards.sum(axis=1).mean()) for name, each in first.items()},
+        f"score, {BROWNIAN}": pytest.approx(control.totals.mean())}
+    assert claim.full_length and claim.runs == 10
 
 
 def test_a_run_and_the_stored_ones_last_the_same_whole_minutes(tmp_path):

@@ -1,7 +1,8 @@
 """The contestants of the page on alternatives, what those earn that are not agents, and the claims on them."""
 
 from companion.alternatives.controllers import PLANNED, nearest_green, pd, planner
-from companion.alternatives.contests import BOARDS, FPS, bins_of, identity, run_contestant
+from companion.alternatives.contests import (BOARDS, DEFAULTS, FPS, PAPER_A, bins_of, identity, read, run_contestant,
+                                              stored)
 from companion.alternatives.search import DEEP, best_settings
 from companion.alternatives.tabular_learners import TABULAR
 from companion.page import judging
@@ -13,8 +14,7 @@ from companion.thesis.verdict import FINAL, RUNS_FOR_A_VERDICT, fewest_runs
 INFORMED = {"nearest green": lambda gains: nearest_green(), "PD": pd, "planner": planner}  # given the physics
 BROWNIAN = "Brownian motion"
 SEES = {False: "relative positions", True: "relative positions and velocities"}  # of creeps, whether deep or not
-N_CREEPS, STEPS = 3, 150_000  # of the board and the runs by which claim C5 is judged
-CREEPS_A = 8  # of the board of paper A, by which claim A10 is judged
+N_CREEPS, STEPS = 3, 150_000  # of the board by which claim C5 is judged, and of the runs by which C5 and A10 are
 
 
 def of_thesis():
@@ -33,15 +33,14 @@ def of_others(settings, board, steps, runs, seed):
             for name, each in others.items()}
 
 
-def judge(results, earned):
-    """Claims C5 and A10 by what contestants earn, a list: none unless they and the boards are the page's own.
+def judge(results, earned, control):
+    """Claims C5 and A10 by what contestants earn, a list: none unless they and the boards are those that it is about.
 
     Learners count that ran as long as the agents, in as many runs or enough for a verdict.
-    results: {number of creeps: {name: `Result`}} of agents. earned: the same with `Earned`, of all.
+    results: {number of creeps: {name: `Result`}} of agents. earned: the same with `Earned`, of all. control: the
+    `Result` of Brownian motion on the board of paper A, with which stored runs of deep learners there are compared.
     """
-    rules = {N_CREEPS: _attempts, CREEPS_A: _untrained}
-    return [claim for creeps, rule in rules.items() if creeps in earned
-            for claim in rule(results[creeps], earned[creeps])]
+    return [*_attempts(results[N_CREEPS], earned[N_CREEPS]), *untrained(control)]
 
 
 def _attempts(results, earned):
@@ -60,14 +59,14 @@ def _attempts(results, earned):
     return judging.judge(rule, ran, wanted)
 
 
-def _untrained(results, earned):
-    deep = _learners(DEEP, results, earned)
+def untrained(control):
+    """Claim A10 by the stored runs with defaults that last as long as Brownian motion, a list: see `judge`."""
+    deep = stored(read(DEFAULTS), DEEP, PAPER_A.n_creeps, control.steps)
 
     def rule():
-        return [claims.judge_untrained({name: each.rewards.sum(axis=1) for name, each in deep.items()},
-                                       earned[BROWNIAN].rewards.sum(axis=1))]
+        return [claims.judge_untrained({name: each.rewards.sum(axis=1) for name, each in deep.items()}, control.totals)]
 
-    return judging.judge(rule, results, {BROWNIAN: Condition(brownian(), BOARDS[CREEPS_A], STEPS, 1)}) if deep else []
+    return judging.judge(rule, control, Condition(brownian(), PAPER_A, STEPS, 1)) if deep else []
 
 
 def _learners(names, results, earned):

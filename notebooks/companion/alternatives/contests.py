@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from companion.shared.runs import each_run
+from companion.thesis.reading import TO_THE_LETTER, conditions
 from neorl.agents.embodiment import embodied
 from neorl.common.files import write_whole
 from neorl.core.building import n_bytes
@@ -29,11 +30,13 @@ from neorl.kernels.kernel import inlined, kernel
 from neorl.worlds import waterworld
 
 BOARDS = {creeps: WaterWorld(n_creeps=creeps) for creeps in (3, 8)}
+PAPER_A = conditions(TO_THE_LETTER, 1, 1)["layers"].world
 FPS, BINS = BOARDS[3].fps, 50
 TIMED_STEPS = 20_000
 MINUTE = 3_000  # steps
 FOLDER = Path(__file__).parent
 TABLES = FOLDER / "long_runs.csv", FOLDER / "deep_runs.csv"
+DEFAULTS = FOLDER / "deep_defaults.csv"  # of deep learners with nothing tuned, on `PAPER_A`
 
 
 class Contestant(NamedTuple):

@@ -8,13 +8,15 @@
 3. Search: the same number of settings is drawn for each method (`companion.alternatives.search`), and each is tried
    once with 3 creeps on a seed of its own. The one that earned most in the last third is used for all runs.
 4. Exploration ends after a number of steps, not after a share of a run, so a long run begins like a short one.
-5. The first three runs of a method on a board have 600,000 steps, since they take ten minutes each; the others have
+5. Claim A10 has first runs of its own, on the board of paper A to the letter, with the libraries' defaults: no setting,
+   network or scale of positions is chosen.
+6. The first three runs of a method on a board have 600,000 steps, since they take ten minutes each; the others have
    150,000. The arithmetic of PyTorch depends on the processor: on another one, a run may differ from its row after some
    minutes.
 
-Both tables are made by ``python -m companion.alternatives.deep_runs search deep_search.csv`` and ``… run
-deep_runs.csv``, which resume when rerun. A run takes minutes, the tables hours; they need stable-baselines3 and
-sb3-contrib, which no extra includes.
+The tables are made by ``python -m companion.alternatives.deep_runs search deep_search.csv``, ``… run deep_runs.csv``
+and ``… defaults deep_defaults.csv``, which resume when rerun. A run takes minutes, the tables hours; they need
+stable-baselines3 and sb3-contrib, which no extra includes.
 """
 
 import sys
@@ -23,9 +25,10 @@ from pathlib import Path
 
 import numpy as np
 
-from companion.alternatives.contests import MINUTE, Row, read, write
+from companion.alternatives.contests import BOARDS, MINUTE, PAPER_A, Row, read, write
 from companion.alternatives.search import DEEP, DEEP_SETTINGS, DEEP_STEPS, SEED, append, best_settings, setting_of
 from companion.alternatives.search import read as read_search
+from companion.thesis.reading import LENGTHS
 from neorl.common.extras import require
 
 gymnasium = require("gymnasium", extra="gym")
@@ -34,6 +37,7 @@ LAYERS = (64, 64)
 FASTEST_CREEP = 0.25  # sizes of the world per second
 # (creeps, steps, runs) in the order of computation; the methods take turns.
 PLAN = ((3, 600_000, 3), (8, 600_000, 3), (3, 150_000, 10), (8, 150_000, 10))
+DEFAULT_RUNS = 10  # of each method, as long as those of paper A
 
 
 class Sight(gymnasium.Wrapper):
@@ -74,30 +78,38 @@ class Sight(gymnasium.Wrapper):
         return np.concatenate([self._scale * observation, velocity.ravel()], dtype=np.float32)
 
 
-def train(method, settings, creeps, steps, seed, run):
-    """Train a deep learner: (reward of each minute; processor seconds; kB of networks, optimiser and experience)."""
+def train(method, settings, board, steps, seed, run):
+    """Train a deep learner: (reward of each minute; processor seconds; kB of networks, optimiser and experience).
+
+    settings: of the search, or {} for the library's defaults.
+    """
     import torch
     torch.set_num_threads(1)
-    env = gymnasium.make("neorl.gym:neorl/WaterWorld-v0", n_creeps=creeps, max_episode_steps=-1)
+    env = gymnasium.make("neorl.gym:neorl/WaterWorld-v0", world=board, max_episode_steps=-1)
     settings = dict(settings)
-    sight = Sight(env, steps, seed, run, settings.pop("position_scale"))
-    model = _model(method, settings, sight, steps, seed * 1_000 + run)
+    sight = Sight(env, steps, seed, run, settings.pop("position_scale", 1.0))
+    model = _model(method, _chosen(method, settings, steps) if settings else {}, sight, seed * 1_000 + run)
     began = time.process_time()
     model.learn(steps)
     return sight.rewards, time.process_time() - began, _kilobytes(model)
 
 
-def _model(method, settings, env, steps, seed):
+def _model(method, chosen, env, seed):
     import sb3_contrib
     import stable_baselines3
     kind = {"DQN": stable_baselines3.DQN, "PPO": stable_baselines3.PPO, "QR-DQN": sb3_contrib.QRDQN}[method]
+    return kind("MlpPolicy", env, seed=seed, device="cpu", **chosen)
+
+
+def _chosen(method, settings, steps):
+    """The arguments by which a model of the library departs from its defaults."""
     network = {"net_arch": list(LAYERS)}
     if method != "PPO":
         settings["exploration_fraction"] = settings.pop("exploration_steps") / steps  # above 1 if the run ends first
         settings["learning_starts"] = 1_000
     if method == "QR-DQN":
         network["n_quantiles"] = 25
-    return kind("MlpPolicy", env, seed=seed, device="cpu", policy_kwargs=network, **settings)
+    return {"policy_kwargs": network, **settings}
 
 
 def _kilobytes(model):
@@ -116,27 +128,35 @@ def search(path):
     for number in range(DEEP_SETTINGS):
         for method in DEEP:
             if (method, number) not in done:
-                rewards, _, _ = train(method, setting_of(method, number), 3, DEEP_STEPS, SEED, number)
+                rewards, _, _ = train(method, setting_of(method, number), BOARDS[3], DEEP_STEPS, SEED, number)
                 third = rewards[-len(rewards) // 3:]
                 append(path, method, number, third.sum() / (60 * len(third)))
 
 
 def run_all(path):
     """Compute the runs of `PLAN` that the table at `path` does not have at that length, with the settings found."""
-    done = {(row.method, row.creeps, row.run): row.steps for row in read(path)} if Path(path).exists() else {}
     for creeps, steps, runs in PLAN:
-        for run in range(runs):
-            for method in DEEP:
-                if done.get((method, creeps, run), 0) < steps:
-                    write(path, [row_of(method, creeps, steps, run)])
-                    done[method, creeps, run] = steps
+        _compute(path, best_settings(), BOARDS[creeps], steps, runs)
 
 
-def row_of(method, creeps, steps, run):
-    """Compute one run, with the setting that the search found: a `Row`."""
-    rewards, seconds, kilobytes = train(method, best_settings()[method], creeps, steps, 0, run)
-    return Row(method, creeps, steps, run, seconds, kilobytes, rewards)
+def run_defaults(path):
+    """Compute the runs on the board of paper A that the table at `path` does not have, with defaults."""
+    _compute(path, dict.fromkeys(DEEP, {}), PAPER_A, LENGTHS["A"], DEFAULT_RUNS)
+
+
+def _compute(path, settings, board, steps, runs):
+    done = {(row.method, row.creeps, row.run): row.steps for row in read(path)} if Path(path).exists() else {}
+    for run in range(runs):
+        for method in DEEP:
+            if done.get((method, board.n_creeps, run), 0) < steps:
+                write(path, [row_of(method, settings[method], board, steps, run)])
+
+
+def row_of(method, settings, board, steps, run):
+    """Compute one run: a `Row`."""
+    rewards, seconds, kilobytes = train(method, settings, board, steps, 0, run)
+    return Row(method, board.n_creeps, steps, run, seconds, kilobytes, rewards)
 
 
 if __name__ == "__main__":
-    {"search": search, "run": run_all}[sys.argv[1]](*sys.argv[2:])
+    {"search": search, "run": run_all, "defaults": run_defaults}[sys.argv[1]](*sys.argv[2:])
