@@ -15,7 +15,7 @@ from companion.page.opening import anchor
 from companion.study import sensitivity
 from companion.thesis.statements import AGENTS, STATEMENTS
 
-from writing import curves, levels
+from writing import base_rate, curves, levels
 from writing.answer import BLOCKS, dependence, headline, sections, summary, turned
 
 CAPTION = ("Each claim has a scale of its own, so that all bands lie below each other. Points are our numbers, with "
@@ -29,7 +29,8 @@ def page(record):
     found = sensitivity.shipped()
     style = f'<style>{recorded.STYLE.read_text("utf-8")}</style>'
     parts = [headline(record), style + recorded.figure(record, BLOCKS),
-             f"{CAPTION} Recorded on {record['date']} with commit {record['commit']}.", turned(record),
+             f"{CAPTION} Recorded on {record['date']} with commit {record['commit']}.",
+             base_rate.section(), turned(record),
              "[Chapter 5](chapters/chapter_5.ipynb) has the figure of this turn, and a switch.",
              dependence(record, found), *sections(record, found),
              levels.section(record, found), "## Claim by claim"]
