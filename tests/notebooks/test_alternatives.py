@@ -146,7 +146,7 @@ def test_a_short_rerun_of_a_deep_learner_equals_the_start_of_its_stored_run(meth
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("method", search.DEEP)
+@pytest.mark.parametrize("method", search.WITH_DEFAULTS)
 def test_stored_runs_with_defaults_have_those_of_the_library_on_the_board_of_paper_a(method):
     from companion.alternatives.deep_runs import row_of
     row = next(row for row in contests.read(contests.DEFAULTS) if (row.method, row.run) == (method, 1))
@@ -157,7 +157,7 @@ def test_stored_runs_with_defaults_have_those_of_the_library_on_the_board_of_pap
 def test_runs_with_defaults_are_stored_as_claim_a10_wants_them():
     from companion.alternatives.deep_runs import DEFAULT_RUNS
     rows = {row[:4]: row for row in contests.read(contests.DEFAULTS)}
-    assert rows.keys() == {*product(search.DEEP, (8,), (150_000,), range(DEFAULT_RUNS))}
+    assert rows.keys() == {*product(search.WITH_DEFAULTS, (8,), (150_000,), range(DEFAULT_RUNS))}
     assert {len(row.rewards) for row in rows.values()} == {150_000 // contests.MINUTE}
     assert contests.PAPER_A == WaterWorld(n_creeps=8, win_reward=5.0, fps=50)
 
@@ -206,7 +206,7 @@ def test_claims_are_judged_only_of_the_page_s_own_contestants(monkeypatch):
 def test_claim_a10_compares_untuned_learners_with_brownian_motion_on_the_board_of_paper_a():
     control = simulate(brownian(), contests.PAPER_A, steps=150_000, runs=10, progress=False)
     (claim,) = contestants.untrained(control)
-    first = contests.stored(contests.read(contests.DEFAULTS), search.DEEP, 8, 150_000)
+    first = contests.stored(contests.read(contests.DEFAULTS), search.WITH_DEFAULTS, 8, 150_000)
     assert {what: found.value for what, (found, *_) in claim.numbers.items() if what.startswith("score")} == {
         **{f"score, {name}": pytest.approx(each.rewards.sum(axis=1).mean()) for name, each in first.items()},
         f"score, {BROWNIAN}": pytest.approx(control.totals.mean())}

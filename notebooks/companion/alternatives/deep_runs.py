@@ -26,7 +26,8 @@ from pathlib import Path
 import numpy as np
 
 from companion.alternatives.contests import BOARDS, MINUTE, PAPER_A, Row, read, write
-from companion.alternatives.search import DEEP, DEEP_SETTINGS, DEEP_STEPS, SEED, append, best_settings, setting_of
+from companion.alternatives.search import (DEEP, DEEP_SETTINGS, DEEP_STEPS, SEED, WITH_DEFAULTS, append, best_settings,
+                                           setting_of)
 from companion.alternatives.search import read as read_search
 from companion.thesis.reading import LENGTHS
 from neorl.common.extras import require
@@ -37,7 +38,7 @@ LAYERS = (64, 64)
 FASTEST_CREEP = 0.25  # sizes of the world per second
 # (creeps, steps, runs) in the order of computation; the methods take turns.
 PLAN = ((3, 600_000, 3), (8, 600_000, 3), (3, 150_000, 10), (8, 150_000, 10))
-DEFAULT_RUNS = 10  # of each method, as long as those of paper A
+DEFAULT_RUNS = 10  # of each method with defaults, as long as those of paper A
 
 
 class Sight(gymnasium.Wrapper):
@@ -136,18 +137,18 @@ def search(path):
 def run_all(path):
     """Compute the runs of `PLAN` that the table at `path` does not have at that length, with the settings found."""
     for creeps, steps, runs in PLAN:
-        _compute(path, best_settings(), BOARDS[creeps], steps, runs)
+        _compute(path, {method: best_settings()[method] for method in DEEP}, BOARDS[creeps], steps, runs)
 
 
 def run_defaults(path):
     """Compute the runs on the board of paper A that the table at `path` does not have, with defaults."""
-    _compute(path, dict.fromkeys(DEEP, {}), PAPER_A, LENGTHS["A"], DEFAULT_RUNS)
+    _compute(path, dict.fromkeys(WITH_DEFAULTS, {}), PAPER_A, LENGTHS["A"], DEFAULT_RUNS)
 
 
 def _compute(path, settings, board, steps, runs):
     done = {(row.method, row.creeps, row.run): row.steps for row in read(path)} if Path(path).exists() else {}
     for run in range(runs):
-        for method in DEEP:
+        for method in settings:
             if done.get((method, board.n_creeps, run), 0) < steps:
                 write(path, [row_of(method, settings[method], board, steps, run)])
 

@@ -42,6 +42,7 @@ DEEP = {"DQN": REPLAY,
         "QR-DQN": REPLAY,
         "PPO": ANY | {"batch_size": [64, 128], "n_steps": [256, 512, 1_024, 2_048], "n_epochs": [4, 10],
                       "gae_lambda": [0.8, 0.9, 0.95], "ent_coef": [0.0, 0.003, 0.01, 0.03]}}
+WITH_DEFAULTS = "DQN", "PPO"  # have runs with nothing tuned too; those of QR-DQN would take most of the time
 FIELDS = ("method", "number", "rate")
 
 
