@@ -189,9 +189,9 @@ class Star {
 
   show(state, minutes = 0) {
     const { root, forgetful, isPlaying, redIsGood, data: { lesson, world } } = this;
-    const whole = minutesOf(lesson, world);
-    const said = { learning: `It learns for ${whole} minutes, without a star: ${Math.floor(minutes)} …`,
-      failed: "" }[state] ?? [forgetful ? "It has forgotten everything" : `It learned for ${whole} minutes`,
+    const whole = counted(minutesOf(lesson, world), "minute");
+    const said = { learning: `It learns for ${whole}, without a star: ${Math.floor(minutes)} …`,
+      failed: "" }[state] ?? [forgetful ? "It has forgotten everything" : `It learned for ${whole}`,
       redIsGood ? "The star is gone." : "It learns no more."].join(". ");
     root.querySelector(".minutes").textContent = said;
     if (root.dataset.state !== state) {
@@ -239,7 +239,7 @@ class Star {
     this.numbered = now;
     const [first, last] = past.length ? [past[0], past.at(-1)] : [this.sample(frames), this.sample(frames)];
     const seconds = last.at - first.at;
-    root.querySelector(".period").textContent = `The last ${Math.round(seconds)} simulated seconds, at twice the pace`;
+    root.querySelector(".period").textContent = `The last ${counted(Math.round(seconds), "simulated second")}, at twice the pace`;
     root.querySelectorAll("[data-measures]").forEach((title) => {
       title.hidden = title.dataset.measures !== (redIsGood ? "red" : "distance");
     });

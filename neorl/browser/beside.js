@@ -46,7 +46,8 @@ class Second {
   problem(preset, beside) {
     if (!beside) return "";
     const isKnown = ["", ...this.rivalsOf(preset)].includes(beside.agent) && LESSONS.includes(beside.learned);
-    return isKnown ? "" : `There is no agent “${beside.agent}” that has learned for ${beside.learned} minutes in such a world.`;
+    const learned = counted(beside.learned, "minute");
+    return isKnown ? "" : `There is no agent “${beside.agent}” that has learned for ${learned} in such a world.`;
   }
 
   settings() {
@@ -89,7 +90,7 @@ class Second {
     const isLeft = () => [...traits.noted].some((name) => !["speed", "playing"].includes(name));
     while (frame && !frame.ended && !isLeft()) {
       const minutes = Math.floor(frame.step / request.world.fps / 60);
-      panel.part(".minutes").textContent = `The second agent has learned for ${minutes} minutes …`;
+      panel.part(".minutes").textContent = `The second agent has learned for ${counted(minutes, "minute")} …`;
       frame = await this.ask({ type: "advance", steps: STEPS_WITHOUT_END, budget: FREE_BUDGET });
     }
     if (frame && !frame.ended) {

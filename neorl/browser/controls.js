@@ -81,6 +81,7 @@ class Controls {
     panel.offer("valence_red", red.length > 0);
     panel.offer("n_creeps", traits.hasCreeps());
     panel.control("resolutions").value = traits.get("resolutions").join(", ");
+    panel.offerResolutions(preset.resolutions);
     for (const chip of panel.part(".chips").children) {
       chip.ariaPressed = traits.get("resolutions").includes(Number(chip.dataset.chip));
     }

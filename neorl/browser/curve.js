@@ -1,8 +1,5 @@
 /* Curves over the run, on a canvas of their own, drawn purely from their arguments, as in drawing.js. */
 
-const COLOUR_OF = new Map(Object.entries({ green: "green", target: "green", red: "red", obstacle: "red",
-  vessel: "red" })); // of what is met, whose kinds may be any text
-
 /** Draw rates over the run. span: {seconds, binSeconds, elapsed (seconds), mark ({second, text}, a line, or none)}; lines:
  * {colour, totals (of bins), per (so many seconds, by default 1), span (of its own), isDashed, isPale}; band: of the
  * reward of other runs, or none. */

@@ -5,12 +5,14 @@ const SPELLED_OUT = new Map(Object.entries({ PC: "place cells", OVC: "object-vec
   near: "radar, near range", place: "place cells" })); // nodes, whose names may be any text
 const [LINE, HEAD] = ["M2 8H21", "M16 4L21 8L16 12"];
 const picture = (content) => `<svg viewBox="0 0 24 16" aria-hidden="true">${content}</svg>`;
+const [MINUS, PLUS] = ["M8 8h8", "M8 8h8M12 4v8"];
 const disc = (kind, sign) => picture(`<circle class="${kind} full" cx="12" cy="8" r="7.5"/>
-  <path class="sign" d="M8 8h8${sign > 0 ? "M12 4v8" : ""}"/>`);
+  <path class="sign" d="${sign}"/>`);
+const discs = (kind) => ({ [`${kind}+`]: disc(kind, PLUS), [`${kind}−`]: disc(kind, MINUS), [kind]: disc(kind, "") });
 const arrow = (kind) => picture(`<path class="${kind}" d="${LINE}"/><path class="${kind} solid" d="${HEAD}"/>`);
 const PICTURES = {
   agent: picture(`<path class="motion" d="M12 8H23"/><circle class="agent full" cx="9" cy="8" r="7.5"/>`),
-  green: disc("green", 1), red: disc("red", -1), player: picture(`<circle class="player" cx="12" cy="8" r="6.5"/>
+  ...discs("green"), ...discs("red"), player: picture(`<circle class="player" cx="12" cy="8" r="6.5"/>
     <text x="12" y="12">Y</text>`),
   place: picture(`<circle class="place" cx="12" cy="8" r="6.5"/>`),
   heat: picture(`<rect class="heat" x="4" y="0.5" width="16" height="15"/>`),
@@ -26,8 +28,14 @@ const PICTURES = {
 const titleOf = (name) => (name.trim() ? name : "unnamed");
 
 /** The entries of the key for a frame: [picture, text], or with a list of texts and of nodes, {name}. */
-function keyOf({ things, nodes, landings, player, active, field, heat, seen, arm, heading, hidden, current }) {
+function keyOf(frame) {
+  const { things, nodes, landings, player, active, field, heat, seen, arm, heading, hidden, current, wants } = frame;
   const kinds = new Set(things.map(({ kind }) => kind));
+  const creep = (kind, pays) => {
+    const sign = signOf(kind, wants);
+    return [`${kind}${sign}`, `${kind === "green" ? "Green" : "Red"} creep: pays ${pays}${
+      pays.startsWith(sign) ? "" : `, but is ${sign === "+" ? "wanted" : "avoided"}`}`];
+  };
   const wishing = nodes.filter(({ valence }) => valence).flatMap(({ name }, at) => {
     const long = SPELLED_OUT.get(name);
     return [at ? "; " : "", { name }, long ? `, ${long}` : ""];
@@ -36,14 +44,14 @@ function keyOf({ things, nodes, landings, player, active, field, heat, seen, arm
     ["agent", arm ? "In joint space: the posture of the arm"
       : "The agent; the line ends where its velocity would take it in half a second", !heading],
     ["hull", "The vessel; the line ends where its velocity would take it in half a second", heading],
-    ["green", "Target: pays +1 (one of its postures)", kinds.has("target")],
-    ["red", "Obstacle: pays −1 (one of its postures)", kinds.has("obstacle")],
+    [`green${signOf("target", wants)}`, "Target: pays +1 (one of its postures)", kinds.has("target")],
+    [`red${signOf("obstacle", wants)}`, "Obstacle: pays −1 (one of its postures)", kinds.has("obstacle")],
     ["place", "Waypoint: pays +1", kinds.has("waypoint")], ["vessel", "Another vessel: a collision pays −1",
       kinds.has("vessel")],
     ["current", "The current, which the agent does not perceive", current?.some(Boolean)],
     ["hidden", "The hidden platform: pays +1 and ends the trial", hidden],
     ["player", "You", player],
-    ["green", "Green creep: pays +1", kinds.has("green")], ["red", "Red creep: pays −1", kinds.has("red")],
+    [...creep("green", "+1"), kinds.has("green")], [...creep("red", "−1"), kinds.has("red")],
     ["place", hidden ? "Where the animal remembers the platform" : "Platform", kinds.has("platform")],
     ["active", "Shaded: the active cell of the map shown", active.length],
     ["heat", "Green ground: the value of the best action, deeper where it is greater", heat],

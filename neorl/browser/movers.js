@@ -1,7 +1,12 @@
 /* Drawings of moving bodies and things in the tank, and of the agent's desires. */
 
+// Of what is met, whose kinds may be any text.
+const COLOUR_OF = new Map(Object.entries({ green: "green", target: "green", red: "red", obstacle: "red",
+  vessel: "red" }));
+const PAYS = new Map(Object.entries({ green: 1, red: -1, target: 1, obstacle: -1 }));
+
 function drawMovers(board, frame) {
-  const { agent, things, player, nodes, landings, radius, body, heading, hidden } = frame;
+  const { agent, things, player, nodes, landings, radius, body, heading, hidden, wants } = frame;
   const { colours, unit } = board;
   const movers = [...things, ...(player ? [player] : []), agent];
   stroke(board, colours.ink, 1.4, 0.8, (path) => {
@@ -10,7 +15,7 @@ function drawMovers(board, frame) {
       addArrow(path, unit, x, y, drawn * vx, drawn * vy, 6);
     }
   });
-  for (const thing of things) drawThing(board, thing, radius);
+  for (const thing of things) drawThing(board, thing, radius, wants);
   if (hidden) drawHidden(board, hidden);
   if (heading) drawHull(board, agent, heading, body, colours.agent);
   else drawDisc(board, agent, body, colours.agent, "");
@@ -26,7 +31,7 @@ function drawMovers(board, frame) {
 /** Draw elements of interest that another tank's reader has dropped. */
 function drawElements(board, elements) {
   for (const { x, y, valence } of elements) {
-    const [colour, sign] = signOf(board, valence);
+    const [colour, sign] = worthOf(board, valence);
     board.context.setLineDash([3, 3]);
     stroke(board, colour, 2, 1, (path) => path.arc(x * board.unit, y * board.unit, 16, 0, FULL_TURN));
     board.context.setLineDash([]);
@@ -34,12 +39,19 @@ function drawElements(board, elements) {
   }
 }
 
+/** The sign of a kind of thing: of what the agent wants of it, or else of what it pays. */
+function signOf(kind, wants = []) {
+  const valence = wants.find((each) => each.kind === kind)?.valence ?? PAYS.get(kind);
+  return valence > 0 ? "+" : valence < 0 ? "−" : "";
+}
+
 /** Draw a thing with its sign, a vessel on its course, or a place with its extent. */
-function drawThing(board, thing, radius) {
+function drawThing(board, thing, radius, wants) {
   const { colours, unit } = board;
-  const signs = new Map(Object.entries({ green: 1, red: -1, target: 1, obstacle: -1 }));
   if (thing.kind === "vessel") return drawHull(board, thing, [thing.vx, thing.vy], 0.7 * radius, colours.red);
-  if (signs.has(thing.kind)) return drawDisc(board, thing, radius, ...signOf(board, signs.get(thing.kind)));
+  if (PAYS.has(thing.kind)) {
+    return drawDisc(board, thing, radius, colours[COLOUR_OF.get(thing.kind)], signOf(thing.kind, wants));
+  }
   const addPlace = (path) => path.arc(thing.x * unit, thing.y * unit, radius * unit, 0, FULL_TURN);
   fillPath(board, colours.place, 0.35, addPlace);
   stroke(board, colours.place, 2, 1, addPlace);
@@ -78,14 +90,14 @@ function drawCurrent(board, [east, south]) {
 }
 
 /** Draw an arm in its workspace, the plane. frame: from the engine. */
-function drawLimb(canvas, colours, { arm: { links, points, radius } }) {
+function drawLimb(canvas, colours, { arm: { links, points, radius }, wants }) {
   const context = fittedContext(canvas);
   const unit = Math.min(canvas.clientWidth, canvas.clientHeight) / 2.3;
   context.translate(canvas.clientWidth / 2, canvas.clientHeight / 2);
   const board = { context, unit, colours };
   stroke(board, colours.ink, 1, 0.4, (path) => path.arc(0, 0, unit, 0, FULL_TURN));
   for (const point of points) {
-    const [colour, sign] = signOf(board, point.kind === "target" ? 1 : -1);
+    const [colour, sign] = [colours[COLOUR_OF.get(point.kind)], signOf(point.kind, wants)];
     fillPath(board, colour, 0.25, (path) => path.arc(point.x * unit, point.y * unit, radius * unit, 0, FULL_TURN));
     stroke(board, colour, 2, 1, (path) => path.arc(point.x * unit, point.y * unit, radius * unit, 0, FULL_TURN));
     write(board, sign, point.x * unit, point.y * unit, `bold ${0.09 * unit}px`, colour);
@@ -122,7 +134,7 @@ function drawDesire(board, agent, { name, x, y }, index) {
 function drawLanding(board, { x, y, valence }) {
   const half = 0.028 * board.unit;
   const [left, top] = [x, y].map((place) => inSight(place) * board.unit);
-  const [colour, sign] = signOf(board, valence);
+  const [colour, sign] = worthOf(board, valence);
   const addDiamond = (path) => {
     path.moveTo(left, top - half);
     for (const [dx, dy] of [[half, 0], [0, half], [-half, 0]]) path.lineTo(left + dx, top + dy);
@@ -133,6 +145,6 @@ function drawLanding(board, { x, y, valence }) {
   write(board, sign, left, top, `bold ${1.3 * half}px`, "#fff");
 }
 
-function signOf({ colours }, valence) {
+function worthOf({ colours }, valence) {
   return valence < 0 ? [colours.red, "−"] : [colours.green, "+"];
 }

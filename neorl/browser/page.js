@@ -30,7 +30,8 @@ const HELP = { // for a control that stands beside the tank by itself
   valence_red: "What the agent wants. Another valence begins a new run.",
   preset: "Another agent begins a new run, with nothing learned." };
 const NAMES = { recursion: "r =", valence_red: "red" }; // of settings that are numbers
-const CHIPS = [2, 3, 5, 7, 11, 13]; // resolutions to press
+const CHIPS = [2, 3, 5, 7, 11, 13]; // resolutions to press, besides those of the agent's maps
+const LABELS = { red: "Make red good", corner: "Show the way to a corner" }; // of what takes a while, and can be stopped
 const OF_PAGE = "On this page"; // the group of a page's own agents
 
 const slide = (name, label, least, most, step) => `<label class="slide"><span>${label}</span><input type="range"
@@ -51,6 +52,7 @@ const graph = (kind, title, label) => `<p class="title of-${kind}">${title}</p><
 // The tank comes first, also for the keyboard.
 const pageOf = (id) => `<div class="neorl-explorer"><p role="alert" hidden></p>
   <div class="columns"><div class="board"><p class="minutes"></p>
+    <progress class="idle" value="0" aria-label="How far the run has come"></progress>
     <div class="aims"><p class="wants"></p><p class="counts"></p></div>
     <div class="tanks"><div class="first"><p class="named" hidden></p>
       <div class="space"><p class="title" hidden>Joint space: first joint across, second down</p>
@@ -59,11 +61,12 @@ const pageOf = (id) => `<div class="neorl-explorer"><p role="alert" hidden></p>
       <div class="grips"></div><div class="marks"></div></div></div></div>
       <div class="second" hidden><p class="named"></p><canvas role="img" aria-label="The second tank"></canvas></div></div>
     <div class="pad" hidden>${["Left ←", "Up ↑", "Down ↓", "Right →"].map(pad).join("")}</div>
-    <div class="buttons">${press("play", "Play")}${press("go-on", "Go on")}${press("red", "Make red good")}
+    <div class="buttons">${press("play", "Play")}${press("go-on", "Go on")}${press("red", LABELS.red)}
       ${press("reset", "Reset")}${press("tour", "Take the tour")}</div>
     <div class="versus" hidden>${choice("beside", "Second tank")}${choice("learned", "has learned for")}</div>
-    <div class="shown">${toggle("learns", "Learning")}${tick("field", "Arrows", "checked")}${tick("heat", "Value", "")}
-      ${tick("trail", "Trail", "checked")}</div>
+    <div class="shown">${toggle("learns", "Learning")}<div class="shown" role="group" aria-label="Show in the tank">
+      <span>Show</span>${tick("field", "Arrows", "checked")}${tick("heat", "Value", "")}
+      ${tick("trail", "Trail", "checked")}</div></div>
     <p class="unseen" id="${id}"></p><p class="said"></p>
     <div class="starters buttons" role="group" aria-label="Things to try">${press("compare", "Newborn beside veteran")}
       ${press("game", "Play against it")}${press("drop", "Drop an element")}</div>
@@ -85,7 +88,7 @@ const pageOf = (id) => `<div class="neorl-explorer"><p role="alert" hidden></p>
   <ul class="key" aria-label="What the tank shows"></ul></div>
   <p class="refused" role="status"></p>
   <details><summary>More</summary><div class="more"><div class="tools buttons">${press("step", "Step")}
-    ${press("new-run", "New run")}${press("watch", "Watch it learn")}${press("corner", "Show the way to a corner")}
+    ${press("new-run", "New run")}${press("watch", "Watch it learn")}${press("corner", LABELS.corner)}
     ${press("link", "Copy link")}${press("picture", "Save picture")}${press("csv", "Save as CSV")}
     ${press("alone", "Tank only")}</div>${slide("exploration", "Exploration ε", 0, 1, 0.01)}
     ${slide("learning_rate", "Learning rate α", -3, 0, 0.01)}

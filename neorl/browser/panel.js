@@ -2,6 +2,7 @@
 
 class Panel {
   only = ""; // the name of a control that stands beside the tank by itself
+  numbers = CHIPS; // resolutions to press
   failed = false; // whether a message stands in the place of a run
 
   constructor() {
@@ -24,8 +25,7 @@ class Panel {
 
   fillMenus(presets, modalities) {
     fillMenu(this.control("preset"), presets, orderedKeys(presets));
-    this.part(".chips").append(...CHIPS.map(chip));
-    this.control("learned").append(...LESSONS.map((minutes) => new Option(`${minutes} minutes`, minutes)));
+    this.control("learned").append(...LESSONS.map((minutes) => new Option(counted(minutes, "minute"), minutes)));
     this.control("modality").append(...Object.keys(modalities).map((name) => new Option(name, name)));
     this.control("object_state").append(...Object.entries(STATES).map(([state, label]) => new Option(label, state)));
   }
@@ -39,6 +39,7 @@ class Panel {
     this.part(".starters").prepend(this.action("red"), this.action("tour"));
     this.part(".more").prepend(...[".bar", ".settings", ".starters", ".tools"].map((each) => this.part(each)));
     this.part(".columns").prepend(first);
+    this.part(".curve").after(this.part("progress"));
     this.part("summary").textContent = "All controls";
   }
 
@@ -47,8 +48,15 @@ class Panel {
     const menu = this.control("preset");
     menu.prepend(...menu.querySelectorAll(`[label="${OF_PAGE}"]`));
     const own = orderedKeys(presets).filter((key) => presets[key].is_condition);
-    const numbers = inOrder(own.flatMap((key) => presets[key].resolutions)).filter((n) => n > 1);
-    if (numbers.length) this.part(".chips").replaceChildren(...numbers.map(chip));
+    const numbers = own.flatMap((key) => presets[key].resolutions);
+    if (numbers.length) this.numbers = numbers;
+  }
+
+  /** Offer the resolutions of an agent's maps besides the others. */
+  offerResolutions(ofAgent) {
+    const [numbers, chips] = [inOrder([...this.numbers, ...ofAgent]).filter((n) => n > 1), this.part(".chips")];
+    if (isSame(numbers, Array.from(chips.children, ({ dataset }) => Number(dataset.chip)))) return;
+    chips.replaceChildren(...numbers.map(chip));
   }
 
   /** Show a control and enable it, or hide it where the agent or its world has no such setting. */

@@ -60,7 +60,7 @@ class Showing {
     this.panel.part(".legend").replaceChildren(swatch("own"), own,
       ...(before ? [swatch("before"), `${before.name}: the one before`] : []),
       ...(second.beside ? [swatch("beside"), second.names()[1]] : []),
-      ...(band ? [swatch("band"), `where ${band.has_all ? "all" : "most"} of ${runs} runs of ${label} lie`] : []));
+      ...(band ? [swatch("band"), `where ${band.has_all ? "all" : "most"} of ${counted(runs, "run")} of ${label} lie`] : []));
   }
 
   /** Update the menu of maps, which change with the agent, in some conditions during a run. */
@@ -85,6 +85,7 @@ class Showing {
     this.drawRates(colours);
     hands.placeHandles();
     this.showKey();
+    this.showWay();
     if (frame && !this.running()) panel.part(".unseen").textContent = describe(frame);
     panel.part(".minutes").textContent = second.beside ? this.minutes() : this.progress(); // the tanks have titles
     panel.part(".pace").textContent = this.running() && rate
@@ -140,9 +141,25 @@ class Showing {
     this.panel.part(".key").replaceChildren(...entries.map(entryOf));
   }
 
+  /** The step to which a run is on its way at full speed, or 0. */
+  destination() {
+    const { panel, traits, tank: { run: { due, length } } } = this;
+    if (due?.hurries) return due.until ?? due.step;
+    return panel.only && this.running() && traits.get("speed") === 0 ? length.steps : 0;
+  }
+
+  showWay() {
+    const [bar, step] = [this.panel.part("progress"), this.destination()];
+    bar.classList.toggle("idle", !step);
+    if (step) Object.assign(bar, { max: step, value: this.tank.run.frame?.step ?? 0 });
+  }
+
   minutes() {
     const { frame, world } = this.tank.run;
-    return frame ? `${(frame.step / world.fps / 60).toFixed(1)} simulated minutes` : "";
+    const inMinutes = (step) => step / world.fps / 60;
+    const step = this.destination();
+    const of = step ? ` of ${shown(inMinutes(step))}` : "";
+    return frame ? `${inMinutes(frame.step).toFixed(1)}${of} simulated minutes` : "";
   }
 
   /** How far the run has come, and what it has earned. */

@@ -15,6 +15,9 @@ function guarded(act, fail) {
   };
 }
 
+/** A number with its unit, "1 minute" or "40 minutes". */
+const counted = (number, unit) => `${number} ${unit}${String(number) === "1" ? "" : "s"}`;
+
 /** Start the worker. Each request resolves to its answer, or to null if the worker is stopped before that; after a
  * failure, which is passed to onFailure, none resolves. */
 function startEngine(model, onFailure) {

@@ -130,11 +130,11 @@ class Starters {
     const minute = 60 * preset.world.fps;
     const at = Math.min(Math.floor(preset.steps / 2), TURN * minute);
     const from = Math.max(0, at - MINUTES_BEFORE * minute);
-    const news = `First it learns for ${shown(at / minute)} minutes, and keeps away from red creeps.`;
+    const news = `First it learns for ${counted(shown(at / minute), "minute")}, and keeps away from red creeps.`;
     const begin = () => {
       const turning = { from, at, minute, caught: [caughtIn(tank.run, "red")], recent: [] };
       Object.assign(tank.run, { turn: turning,
-        due: { step: at, hurries: true, act: turn, news } });
+        due: { step: at, hurries: true, act: turn, news, of: "red" } });
     };
     const turn = () => {
       const count = () => tank.run.turn.caught.push(caughtIn(tank.run, "red"));
@@ -142,7 +142,23 @@ class Starters {
       tank.run.due = { step: at + minute, hurries: false, act: count };
       traits.write({ valence_red: 1, speed: WATCHED, ...canStopLearning(preset) ? { learning_rate: 0 } : {} });
     };
-    this.fresh({ speed: WATCHED, playing: true }, { step: from, hurries: true, act: begin, news });
+    this.fresh({ speed: WATCHED, playing: true },
+      { step: from, hurries: true, act: begin, news, of: "red", until: at });
+  }
+
+  /** Whether the button of a thing to try, which is on its way, stops it. */
+  stops(name) {
+    const { tank, tank: { run } } = this;
+    return [tank.due, run.due].some((due) => due?.of === name);
+  }
+
+  /** Stop what is on its way, at the moment of the run. */
+  stop() {
+    const { tank, tank: { run }, traits } = this;
+    tank.due = run.due = null;
+    Object.assign(run, { turn: null, news: `Stopped after ${this.showing.minutes()}.` });
+    traits.write({ playing: false });
+    this.refresh();
   }
 
   /** Once enough has been learned, show the way to a corner, in a map of places or else in the first map. */
@@ -158,7 +174,7 @@ class Starters {
     };
     const step = Math.min(LEARNED, run.length.steps);
     if (run.frame.step >= step) return act();
-    run.due = { step, hurries: true, act, news: "Learning for a moment …" };
+    run.due = { step, hurries: true, act, news: "Learning for a moment …", of: "corner" };
     return traits.write({ playing: true });
   }
 
@@ -202,6 +218,9 @@ class Starters {
     const offers = preset ? offersOf(preset) : {};
     const ready = { watch: true, red: true, corner: frame, game: frame && !frame.ended };
     for (const [name, isReady] of Object.entries(ready)) panel.action(name).disabled = !isReady || !offers[name];
+    for (const [name, label] of Object.entries(LABELS)) {
+      panel.action(name).textContent = this.stops(name) ? "Stop here" : label;
+    }
     panel.action("game").textContent = game ? "Leave the game" : "Play against it";
     panel.action("game").ariaPressed = Boolean(game);
   }

@@ -11,7 +11,8 @@ const newRun = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { step
 class Tank {
   run = newRun();
   engine = null;
-  due = null; // what is due in the next run: {step, hurries, act, news}
+  due = null; // what is due in the next run: {step, hurries (at full speed), act, news, of (the button that began it, if
+  // that stops it, too), until (the last step of all that it begins; by default `step`)}
 
   /** taken: called with each frame; fail: with what the engine says when it fails. */
   constructor(model, { taken, fail }) {

@@ -131,8 +131,8 @@ class Explorer {
     if (resolution) return controls.toggleResolution(Number(resolution));
     const acts = { play: () => this.togglePlay(), step: () => this.step(), "go-on": () => this.goOn(),
       reset: () => starters.reset(), "new-run": () => starters.next(), open: () => starters.open(),
-      watch: () => starters.watch(), red: () => starters.revalueRed(), corner: () => starters.showCorner(),
-      compare: () => starters.compare(), game: () => (this.tank.run.game ? hands.leaveGame() : starters.play()),
+      watch: () => starters.watch(), red: () => (starters.stops("red") ? starters.stop() : starters.revalueRed()),
+      corner: () => (starters.stops("corner") ? starters.stop() : starters.showCorner()), compare: () => starters.compare(), game: () => (this.tank.run.game ? hands.leaveGame() : starters.play()),
       drop: () => hands.beginDrop(detail === 0), delete: () => hands.deleteElement(),
       clear: () => hands.clearElements(),
       link: () => saving.copyLink(), picture: () => saving.savePicture(), csv: () => saving.saveRun(),

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from explorer_page import drop_by_keyboard, keep_states, press, wait, wait_for_states, write_page
+from explorer_page import drop_by_keyboard, keep_states, picture, press, wait, wait_for_states, write_page
 from playwright.sync_api import expect
 
 from neorl import Explorer, Run, WaterWorld, object_vector_cells, place_cells, simulate
@@ -55,6 +55,51 @@ def test_red_becomes_good_in_the_middle_of_a_short_run_learning_stops_and_red_cr
     expect(page.locator('[name="valence_red"]')).to_have_value("1")
     expect(page.get_by_label("Learning", exact=True)).not_to_be_checked()
     expect(page.locator(".said")).to_contain_text("Learning is off")
+
+
+def test_the_way_to_the_turn_is_shown_and_can_be_stopped(visit):
+    page = visit("#explorer_agent-network-d_minute-0")
+    expect(page.locator("progress")).to_be_hidden()
+    button = page.locator('[data-action="red"]')
+    button.click()
+    expect(button).to_have_text("Stop here")
+    bar = page.get_by_label("How far the run has come")
+    expect(bar).to_be_visible()
+    expect(page.locator(".board .minutes")).to_contain_text(re.compile(r"^[\d.]+ of 50 simulated minutes"))
+    page.wait_for_function("document.querySelector('progress').value > 0")
+    button.click()
+    expect(page.locator(".said")).to_contain_text(re.compile(r"Stopped after [\d.]+ simulated minutes\."))
+    wait(page, "paused")
+    step, end = int(shown(page, "step")), bar.evaluate("bar => bar.max")
+    assert 0 < step < end == 50 * 60 * TANK.fps
+    expect(button).to_have_text("Make red good")
+    expect(page.locator("progress")).to_be_hidden()
+    expect(page.locator('[name="valence_red"]')).to_have_value("-1")
+
+
+def test_the_sign_on_red_discs_is_that_of_the_desire(visit):
+    page = visit()
+    sign = page.locator(".key li", has_text="Red creep").locator(".sign")
+    tank = picture(page)
+    expect(sign).to_have_attribute("d", "M8 8h8")
+    page.locator("summary").click()
+    page.locator('[name="valence_red"]').fill("1")
+    expect(page.locator(".key")).to_contain_text("Red creep: pays −1, but is wanted")
+    expect(sign).to_have_attribute("d", "M8 8h8M12 4v8")
+    wanting = picture(page)
+    assert wanting != tank
+    page.locator('[name="valence_red"]').fill("0")
+    expect(sign).to_have_attribute("d", "")
+    assert picture(page) not in (tank, wanting)
+
+
+def test_resolutions_to_press_are_those_of_the_agent_too(visit):
+    page = visit("#explorer_agent-foveated-cells-contacts-alone_minute-0")
+    pressed = page.locator('.chips [aria-pressed="true"]')
+    expect(pressed).to_have_text(["5", "9", "15", "25"])
+    page.locator('[name="preset"]').select_option("things")
+    expect(page.locator(".chips button")).to_have_text(["2", "3", "4", "5", "7", "11", "13"])
+    expect(pressed).to_have_text(["4"])
 
 
 def test_learning_is_switched_on_again_at_the_rate_of_before(visit):

@@ -87,12 +87,12 @@ class Turn {
       at ? " · " : "", element("span", { className: "swatch", style: `border-top: 2px solid var(--${colour})` }),
       `learning ${learning}${isPale ? ", the run before" : " after the turn"}`]));
     const wanted = frame.wants.some(({ kind, valence }) => kind === "red" && valence > 0) ? "wanted" : "avoided";
-    part(".minutes").textContent = `${Math.floor(frame.step / fps / 60)} minutes · red is ${wanted}`;
+    part(".minutes").textContent = `${counted(Math.floor(frame.step / fps / 60), "minute")} · red is ${wanted}`;
     const mean = (from, to) =>
       (line.totals.slice(from, to).reduce((sum, each) => sum + each, 0) / (to - from)).toFixed(1);
     const [quarter, half, late, last] = [0.5 * turn, turn, (turn + end) / 2, end].map((at) => Math.floor(at / 60));
     part(".said").textContent = isWhole && quarter ? `Red creeps a minute: ${mean(quarter, half)} before the turn, `
-      + `${mean(half, half + 1)} in the minute after it, ${mean(late, last)} in the last ${last - late} minutes.` : "";
+      + `${mean(half, half + 1)} in the minute after it, ${mean(late, last)} in the last ${counted(last - late, "minute")}.` : "";
     if (isWhole) root.dataset.caught = line.totals.join(" ");
   }
 

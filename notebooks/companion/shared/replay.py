@@ -88,7 +88,8 @@ class Replay(Figure):
 
     def _sentence(self):
         names = " and ".join(each["name"] for each in self._recordings)
-        return f"A replay of {self._recordings[0]['seconds'][-1]:g} seconds of {names}."
+        seconds = self._recordings[0]["seconds"][-1]
+        return f"A replay of {seconds:g} second{'' if seconds == 1 else 's'} of {names}."
 
     def _drawn(self):
         first = self._recordings[0]
