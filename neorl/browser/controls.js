@@ -8,7 +8,7 @@ class Controls {
 
   /** Let one control stand by itself. Each of its settings is a whole run. */
   putFirst(name) {
-    this.panel.putFirst(name);
+    this.panel.putFirst(name, this.traits.presets);
     this.panel.offerOfPage(this.traits.presets);
     this.traits.write({ speed: 0 });
   }
@@ -95,6 +95,7 @@ class Controls {
     this.showHorizon(learning.bootstrap || memory > 0);
     panel.showSlider("memory", memory ? Math.log10(memory) : NO_MEMORY, shown(memory));
     this.showGains(nodes);
+    panel.showPick(traits.settings(), traits.presets);
   }
 
   showHorizon(isDiscounted) {

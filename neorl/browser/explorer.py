@@ -106,8 +106,9 @@ class Explorer(Figure):
     gains (one per node), exploration, learning_rate and discount (0 … 1), memory (≥ 0, in cells; 0 if it learns at
     every step), n_creeps (1 … 20; None outside WaterWorld), seed (below 2³²), run, speed (times real time, 0 for as
     fast as possible), playing; and, from the beginning only, control: one of `neorl.browser.explorer.CONTROLS`, which
-    then stands beside the tank by itself, with the others folded, or by default "". A run of each setting of it is
-    drawn at full speed, beside the last run of another setting.
+    then stands beside the tank by itself, with the others folded, or by default "". A menu among them becomes buttons
+    of what the conditions have, where that differs, and is folded itself. A run of each setting is drawn at full speed,
+    beside the last run of another setting.
     Choosing a preset sets the traits that it determines. An agent that is not a condition is in the tank of the first
     condition in WaterWorld, or else in one with 3 creeps; an agent to the letter has the letter's steps per second and
     contacts; agents in the arena are in a `neorl.worlds.Arena`, and agents of other spaces in their own worlds.

@@ -76,6 +76,17 @@ function inWords(map, shape) {
   return `${SPELLED_OUT.get(node) ?? titleOf(node)}, ${shape}`;
 }
 
+/** What an agent is called by the setting that a control is for. */
+function settingInWords(control, settings, presets) {
+  const labelOf = (key) => presets[key].label.split(": ").at(-1); // without its figure
+  const value = settings[control] ?? "";
+  if (value === "") return labelOf(settings.preset); // an agent without such a setting
+  const { modality, nodes: [node] } = presets[settings.preset];
+  const texts = { resolutions: () => inOrder(value).map((n) => `N${n}`).join(", "), object_state: () => STATES[value],
+    modality: () => (value === modality ? SPELLED_OUT.get(node) ?? titleOf(node) : value), preset: () => labelOf(value) };
+  return texts[control]?.() ?? `${NAMES[control]} ${shown(value)}`;
+}
+
 /** What is drawn of the way to the chosen cell. */
 function describeWay({ seen, agent, heading, round }) {
   const { axes, goal, ofSelf, vector, ways } = seen;

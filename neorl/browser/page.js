@@ -45,6 +45,7 @@ const toggle = (name, label) => `<label class="tick"><input type="checkbox" role
   </label>`;
 const press = (action, label) => `<button type="button" data-action="${action}">${label}</button>`;
 const chip = (n) => element("button", { type: "button", dataset: { chip: n }, ariaLabel: `Resolution ${n}` }, n);
+const pick = (preset, text) => element("button", { type: "button", dataset: { pick: preset } }, text);
 const pad = (key) => `<button type="button" data-key="Arrow${key.slice(0, -2)}" aria-label="${key.slice(0, -2)}">
   ${key.at(-1)}</button>`;
 const graph = (kind, title, label) => `<p class="title of-${kind}">${title}</p><canvas class="${kind}" role="img"

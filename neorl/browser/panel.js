@@ -30,17 +30,45 @@ class Panel {
     this.control("object_state").append(...Object.entries(STATES).map(([state, label]) => new Option(label, state)));
   }
 
-  /** Put one control beside the tank, with a sentence on it, and fold the others. */
-  putFirst(name) {
+  /** Put one control beside the tank, with a sentence on it, and fold the others. Of a menu, the choices of the page's
+   * agents become buttons, if they have several, and the whole of it is folded. */
+  putFirst(name, presets) {
     this.only = name;
     const { parentElement: label } = this.control(name);
     const help = element("p", { className: "help" }, HELP[name]);
-    const first = element("div", { className: "only" }, label.closest(".setting") ?? label, help);
+    const picks = this.control(name).matches("select") ? this.picksOf(presets) : [];
+    const title = label.firstElementChild.textContent;
+    const group = element("div", { className: "buttons picks", role: "group", ariaLabel: title }, ...picks,
+      elementOf(press("more", "More …")));
+    const control = [label.closest(".setting") ?? label];
+    const buttons = [element("p", { className: "title" }, title), group];
+    const first = element("div", { className: "only" }, ...(picks.length > 1 ? buttons : control), help);
     this.part(".starters").prepend(this.action("red"), this.action("tour"));
     this.part(".more").prepend(...[".bar", ".settings", ".starters", ".tools"].map((each) => this.part(each)));
     this.part(".columns").prepend(first);
     this.part(".curve").after(this.part("progress"));
     this.part("summary").textContent = "All controls";
+  }
+
+  /** A button for each choice that agents of the page have, of the first that has it. */
+  picksOf(presets) {
+    const own = orderedKeys(presets).filter((key) => presets[key].is_condition);
+    const alike = Map.groupBy(own, (key) => choiceOf(this.only, initialSettings(presets, key), presets));
+    return [...alike.values()].map(([key]) => pick(key, settingInWords(this.only, initialSettings(presets, key), presets)));
+  }
+
+  /** Show which of the choices is the present one. */
+  showPick(settings, presets) {
+    const choice = choiceOf(this.only, settings, presets);
+    for (const button of this.root.querySelectorAll("[data-pick]")) {
+      button.ariaPressed = choiceOf(this.only, initialSettings(presets, button.dataset.pick), presets) === choice;
+    }
+  }
+
+  /** Unfold all controls, at the menu that stands there, or at the first one if the agent does not have it. */
+  unfold() {
+    this.part("details").open = true;
+    [this.control(this.only), this.control("preset")].find(({ disabled }) => !disabled).focus();
   }
 
   /** Offer the agents of the page before all others, and as resolutions those of their maps. */

@@ -13,6 +13,11 @@ function initialSettings(presets, key) {
   return { preset: key, ...Object.fromEntries(OF_PRESET.map((name) => [name, presets[key][name]])) };
 }
 
+/** What tells a setting of a control from its others: its value, or the nodes of an agent that has no such setting. */
+function choiceOf(control, settings, presets) {
+  return settings[control] || presets[settings.preset].nodes.join(" + ");
+}
+
 /** Whether the reader has chosen another modality than the preset's, which may have ranges of its own. */
 function hasOtherModality({ nodes, modality, parameters }, settings) {
   return nodes.length === 1 && settings.modality !== "" && settings.modality !== modality

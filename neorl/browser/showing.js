@@ -13,12 +13,7 @@ class Showing {
   /** What a run is called whose only control stands beside the tank: by its setting. */
   name() {
     const { panel: { only }, traits } = this;
-    const value = traits.get(only) ?? "";
-    const nameOf = (preset) => traits.presets[preset].label.split(": ").at(-1); // without its figure
-    if (only && value === "") return nameOf(traits.get("preset")); // an agent without such a setting
-    const texts = { resolutions: () => inOrder(value).map((n) => `N${n}`).join(", "), modality: () => value,
-      object_state: () => STATES[value], preset: () => nameOf(value) };
-    return only && (texts[only]?.() ?? `${NAMES[only]} ${shown(value)}`);
+    return only && settingInWords(only, traits.settings(), traits.presets);
   }
 
   /** Keep the reward of a run that is over, to be drawn beside the next one, which has another setting. */

@@ -126,9 +126,10 @@ class Explorer {
     return act ? act() : controls.turned(target);
   }
 
-  clicked({ action, chip: resolution }, detail) {
+  clicked({ action, chip: resolution, pick: preset }, detail) {
     const { controls, hands, second, starters, tour, saving } = this;
     if (resolution) return controls.toggleResolution(Number(resolution));
+    if (preset) return controls.drawWhole(this.panel.only), starters.choose(preset);
     const acts = { play: () => this.togglePlay(), step: () => this.step(), "go-on": () => this.goOn(),
       reset: () => starters.reset(), "new-run": () => starters.next(), open: () => starters.open(),
       watch: () => starters.watch(), red: () => (starters.stops("red") ? starters.stop() : starters.revalueRed()),
@@ -136,7 +137,7 @@ class Explorer {
       drop: () => hands.beginDrop(detail === 0), delete: () => hands.deleteElement(),
       clear: () => hands.clearElements(),
       link: () => saving.copyLink(), picture: () => saving.savePicture(), csv: () => saving.saveRun(),
-      alone: () => saving.showAlone(), tour: () => tour.start(), next: () => tour.next(), end: () => tour.end() };
+      more: () => this.panel.unfold(), alone: () => saving.showAlone(), tour: () => tour.start(), next: () => tour.next(), end: () => tour.end() };
     this.address.touched ||= action in acts;
     if (TO_WATCH.includes(action)) this.panel.showTank();
     return acts[action]?.();

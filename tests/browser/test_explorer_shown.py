@@ -11,7 +11,8 @@ from matplotlib import pyplot as plt
 from playwright.sync_api import expect
 from traitlets import TraitError
 
-from neorl import Desire, Explorer, Place, Run, WaterWorld, place_cells, simulate
+from neorl import (Condition, Desire, Explorer, Place, Run, WaterWorld, multimodal, object_vector_cells, place_cells,
+                   simulate)
 from neorl.browser.explorer import LITTLE_HAPPENS
 
 TANK, PLACES = WaterWorld(), place_cells([5, 3])
@@ -280,8 +281,7 @@ def test_no_way_leads_out_of_the_chosen_cell(visit):
     assert arrows[2] == 0 and sum(arrows) > 50
 
 
-@pytest.mark.parametrize("control, preset", [("resolutions", "places"), ("preset", "places"),
-                                             ("recursion", "Network D")])
+@pytest.mark.parametrize("control, preset", [("resolutions", "places"), ("recursion", "Network D")])
 def test_one_control_stands_beside_the_tank_and_the_others_are_folded(visit, control, preset):
     page = visit(preset=preset, control=control)
     explorer_of(page)
@@ -295,6 +295,33 @@ def test_one_control_stands_beside_the_tank_and_the_others_are_folded(visit, con
         field.fill("0.5")
         page.wait_for_function(f"{DATA}.condition === ''")
         expect(field.locator("xpath=..")).to_contain_text(re.compile("Weight of recursion.*0.5", re.DOTALL))
+
+
+@pytest.mark.parametrize("control, texts", [
+    ("preset", ["places", "things", "few", "both"]),
+    ("modality", ["place cells", "object-vector cells", "both"])])
+def test_a_menu_by_itself_has_buttons_of_what_the_page_s_agents_choose(conditions, tmp_path, open_page, control, texts):
+    things, both = object_vector_cells([4]), multimodal([3])
+    more = {name: Condition(agent, TANK, SIZE["steps"], 1, SIZE["seed"])
+            for name, agent in (("things", things), ("few", place_cells([4])), ("A figure: both", both))}
+    write_page(tmp_path, [Explorer(conditions | more, "few", control=control)])
+    page = open_page(tmp_path, "page.html")
+    explorer_of(page)
+    expect(page.locator(".only button")).to_have_text([*texts, "More …"])
+    menu, pressed = page.locator(f'[name="{control}"]'), page.locator('.only [aria-pressed="true"]')
+    expect(pressed).to_have_text(["few" if control == "preset" else "place cells"])
+    expect(menu).to_be_hidden()
+    page.get_by_role("button", name="both").click()
+    expect(pressed).to_have_text(["both"])
+    wait_for_score(page, SIZE["steps"], run_of(both).advance(SIZE["steps"]))
+    page.get_by_role("button", name=texts[1]).click()  # of several agents, the first
+    wait_for_score(page, SIZE["steps"], run_of(things).advance(SIZE["steps"]))
+    expect(page.locator(".legend")).to_contain_text(f"{texts[1]}: this run")
+    page.get_by_role("button", name="More").click()
+    expect(menu).to_be_focused()
+    if control == "modality":
+        menu.select_option("head-direction cell")
+        expect(pressed).to_have_count(0)
 
 
 def test_a_page_about_the_explorer_has_all_controls_and_its_first_agent(visit, tmp_path, open_page, conditions):

@@ -113,7 +113,7 @@ def explorer_conditions(results, place, objects, joined, of_paper):
     offered = {f"{paper}, figure 5: {CELLS['PC + OVC']} cells": together}
     for figure, agent, alone in (("4A", "PC", place), ("4B", "OVC", objects)):
         offered |= {f"{paper}, figure {figure}: {CELLS[agent]} cells, {n}": result
-                    for n, result in (alone | {"all": results[agent]}).items()}
+                    for n, result in ({"all": results[agent]} | alone).items()}
     return offered | {f"{paper}: object-vector cells join": joined}
 
 
