@@ -45,7 +45,7 @@ RUNS = {"claims": CALIBRATED, "letter": CALIBRATED | dict.fromkeys(
     ("layers", "modal", "pace", "networks"), 200) | {"single": 100}}  # where most is clear
 CONTROLS = 1_000  # runs of Brownian motion
 OF_PAGES = 100  # runs of claims that pages judge
-AT_50 = {"layers": 200, "single": 100}  # of the calibrated reading with paper A at 50 steps per second
+AT_50 = {"layers": 100, "single": 50}  # of the calibrated reading with paper A at 50 steps per second
 FORAGER = Condition(forager(), WaterWorld(n_creeps=3), LENGTHS["A"], OF_PAGES, SEED)  # of the page beyond the thesis
 REMEDY = "make record"
 SAMPLED = (("brownian", 8), ("layer", 7), "layers", ("single", 50), ("place", "all"), ("objects", "all"), "both",
