@@ -32,8 +32,11 @@ function drawCurves(canvas, colours, span, lines, band = null) {
     [xOf((borders[bin] + borders[bin + 1]) / 2), yOf(rate)]);
   if (band) {
     const outline = [...pointsOf(band.edges, band.low), ...pointsOf(band.edges, band.high).reverse()];
+    board.context.save();
+    board.context.clip(pathOf((path) => path.rect(left, 0, right - left, bottom))); // it may be of longer runs
     fillPath(board, colours.ink, 0.2, (path) => addLine(path, outline));
     stroke(board, colours.ink, 1, 0.8, (path) => addLine(path, pointsOf(band.edges, band.middle)));
+    board.context.restore();
   }
   for (const { colour, edges, rates, isDashed, isPale } of curves) {
     const points = pointsOf(edges, rates);

@@ -1,8 +1,8 @@
 """The Explorer: a widget that runs the book's own kernels in the reader's browser.
 
 Everything it needs is in its state, so it works in a page without Python: the kernels in WebAssembly
-(`neorl.browser.wasm`), its *presets* (agents as parameters, with the tolerance band of the page's runs of them), and
-its traits, which are the controls.
+(`neorl.browser.wasm`), its *presets* (agents as parameters, with the curves behind their runs, `neorl.browser.curves`),
+and its traits, which are the controls.
 
 - `settings.js` turns a preset and the traits into parameters, and `engine.js` runs them in a worker, which
   `simulator.js` starts, in the memory of `machine.js`; `changing.js` changes their agent. Nothing else affects a run:
@@ -16,7 +16,6 @@ its traits, which are the controls.
 """
 
 import contextlib
-import math
 from collections.abc import Mapping
 from dataclasses import replace
 from importlib import resources
@@ -27,7 +26,7 @@ from neorl.agents import forager, papers, spaces
 from neorl.agents.agent import LEARNED, STATES, Agent, Desire, Node
 from neorl.agents.embodiment import choices_in, loop_of
 from neorl.agents.rules import Learning, Policy
-from neorl.browser import wasm
+from neorl.browser import curves, wasm
 from neorl.browser.figure import Figure, beginning, curve
 from neorl.browser.settings import (AVOIDED, SETTINGS, Checked, check, described, integers, reals, settings_of,
                                     stated_nodes)
@@ -36,12 +35,10 @@ from neorl.common import checks
 from neorl.common.extras import require
 from neorl.core.building import choices_of
 from neorl.core.modality import MODALITIES, PLACE_CELL
-from neorl.experiments.bins import bin_steps
 from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
 from neorl.experiments.simulation import label
 from neorl.kernels.annotations import is_tuple
-from neorl.statistics import tolerance_band
 from neorl.worlds.arena import Arena
 from neorl.worlds.arm import Arm
 from neorl.worlds.vessel import Vessel
@@ -75,7 +72,6 @@ AGENTS = {name: agent for agents in GROUPS.values() for name, agent in agents.it
 LABELS = {"Foveated cells, contacts alone": "Forager: foveated cells, contacts alone"}
 STEPS = 300_000  # of a run of an agent that is not a condition of the page
 LITTLE_HAPPENS = 120_000  # first steps of networks of desires, which the page runs at full speed
-CURVE_BINS = 50
 SCRIPTS = ("elements.js", "settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js",
            "panel.js", "traits.js", "tank.js", "hands.js", "beside.js", "controls.js", "showing.js", "starters.js",
            "address.js", "tour.js", "saving.js", "widget.js", "shared.js")
@@ -97,6 +93,10 @@ class Explorer(Figure):
         single state of object vectors, and no kernels of the user's own.
     preset: the name of a condition or of one of `neorl.browser.explorer.AGENTS`; by default the first condition or
         agent.
+    behind: {name of a condition: (minutes, mean, low, high, what it is)}, curves of reward per second that are there at
+        once, such as those of many runs made before, and over which the reader's own run is drawn; of a setting of a
+        control, that of the condition that has it. minutes: of the run. mean, low, high: in as many equal parts of it,
+        a mean and the ends of its interval. what it is: a text for the key, such as "1,000 runs".
     traits: initial values of any of the traits below.
 
     Traits: resolutions (1 … 90 each), modality (by name, with the preset's ranges if it is the preset's own; "" if the
@@ -114,8 +114,8 @@ class Explorer(Figure):
     contacts; agents in the arena are in a `neorl.worlds.Arena`, and agents of other spaces in their own worlds.
     seconds and score follow the run, about once per second. All views of an Explorer share that run.
 
-    Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
-    module cannot be built.
+    Raises ValueError for a condition or a curve that cannot be shown, TraitError for a bad trait, RuntimeError if the
+    WebAssembly module cannot be built.
     """
 
     _esm = text_of(*SCRIPTS)
@@ -149,18 +149,18 @@ class Explorer(Figure):
     seconds = traitlets.Float().tag(sync=True)
     score = traitlets.Float().tag(sync=True)
 
-    def __init__(self, conditions=None, preset=None, **traits):
+    def __init__(self, conditions=None, preset=None, behind=None, **traits):
         with self._choosing(True):
             super().__init__(_wasm=wasm.modules(), _layout={name: wasm.layout(name) for name in wasm.MODULES},
-                             _modalities=_modalities(), **self._shown(conditions, preset, traits))
+                             _modalities=_modalities(), **self._shown(conditions, preset, behind, traits))
 
-    def show(self, conditions=None, preset=None, **traits):
+    def show(self, conditions=None, preset=None, behind=None, **traits):
         """Show other conditions wherever this Explorer stands, such as results that have been computed since.
 
         Arguments are those of `Explorer`. All traits begin anew, but for control, which stays unless it is given.
         Raises what `Explorer` raises, and then goes on as before.
         """
-        shown = self._shown(conditions, preset, traits)
+        shown = self._shown(conditions, preset, behind, traits)
         with self._choosing(True), self.hold_sync(), self.hold_trait_notifications():
             for name, value in shown.items():
                 setattr(self, name, value)
@@ -189,13 +189,14 @@ class Explorer(Figure):
         finally:
             self._whole = False
 
-    def _shown(self, conditions, preset, traits):
+    def _shown(self, conditions, preset, behind, traits):
         """All traits that these arguments determine."""
         if isinstance(conditions, str) and preset is None:
             conditions, preset = None, conditions
         conditions = _by_name(conditions)
         for name, condition in conditions.items():
             _check_condition(name, condition)
+        behind = curves.behind(behind, conditions)
         first = next(iter(conditions.values()), None)
         tanks = [each.world for each in conditions.values() if isinstance(each.world, WaterWorld)]
         tank = tanks[0] if tanks else WaterWorld()
@@ -205,7 +206,8 @@ class Explorer(Figure):
         own = {name: (each.agent, each.world) for name, each in conditions.items()}
         start = {name: agents[name] for name in START_HERE}
         agents = start | own | agents | own  # in the menu's order; conditions replace agents of the same name
-        presets = {name: _preset(name, agent, world, conditions.get(name)) | {"place": place}
+        presets = {name: _preset(name, agent, world, conditions.get(name))
+                   | {"place": place, "behind": behind.get(name)}
                    for place, (name, (agent, world)) in enumerate(agents.items())}
         preset = next(iter(conditions or presets)) if preset is None else preset
         checks.one_of("preset", preset, tuple(presets))
@@ -219,8 +221,9 @@ class Explorer(Figure):
         return f"An Explorer that runs {self._presets[self.preset]['label']}, in JupyterLab or a page with JavaScript."
 
     def _drawn(self):
-        band = self._presets[self.preset]["band"]
-        return curve(band["edges"][1:], band["middle"]) if band else beginning(self.world, self.seed)
+        preset = self._presets[self.preset]
+        drawn = preset["behind"] or preset["band"]
+        return curve(drawn["edges"][1:], drawn["middle"]) if drawn else beginning(self.world, self.seed)
 
     @property
     def agent(self):
@@ -328,7 +331,7 @@ def _preset(name, agent, world, condition):
         "steps": condition.steps if condition else STEPS, "begins": _begins(agent, condition),
         "red": red, "avoided": agent.desires[red[0]].source if red else "", "recurring": recurring,
         "seed": condition.seed if condition else 0, "runs": result.runs if result else 0,
-        "band": _band(result) if result else None, "totals": result.totals.tolist() if result else [],
+        "band": curves.band(result) if result else None, "totals": result.totals.tolist() if result else [],
         "changes": [{"step": step, "parameters": parameters_in_page(later, world)}
                     for step, later in (condition.changes if condition else ())],
         "parameters": parameters_in_page(agent, world)}
@@ -379,19 +382,6 @@ def _as_json(values):
     if isinstance(values, list | tuple):
         return [_as_json(value) for value in values]
     return values.tolist() if isinstance(values, np.ndarray | np.generic) else values
-
-
-def _band(result):
-    """Reward per second in bins of the run: the tolerance band of the runs, and their mean."""
-    each = math.ceil(result.rewards.shape[1] / CURVE_BINS)
-    begins = np.arange(0, result.rewards.shape[1], each)
-    edges = result.edges[[*begins, -1]]
-    rates = np.add.reduceat(result.rewards, begins, axis=1, dtype=float) / np.diff(edges)
-    low, high = tolerance_band(rates)
-    curves = {"edges": edges, "low": low, "middle": rates.mean(axis=0), "high": high}
-    return {**{name: curve.round(4).tolist() for name, curve in curves.items()},
-            "steps_per_bin": each * bin_steps(result.world),
-            "has_all": bool(np.array_equal([low, high], [rates.min(axis=0), rates.max(axis=0)]))}
 
 
 def _modalities():

@@ -49,13 +49,14 @@ class Showing {
 
   showLegend() {
     const { before, second, tank: { run: { name, changed } } } = this;
-    const { label, runs, band } = this.traits.shown;
+    const [{ label, runs }, behind] = [this.traits.shown, this.behind()];
     const swatch = (kind) => element("span", { className: `swatch ${kind}` });
     const own = `${name ? `${name}: ` : ""}this run${changed ? ", changed on the way" : ""}`;
     this.panel.part(".legend").replaceChildren(swatch("own"), own,
       ...(before ? [swatch("before"), `${before.name}: the one before`] : []),
       ...(second.beside ? [swatch("beside"), second.names()[1]] : []),
-      ...(band ? [swatch("band"), `where ${band.has_all ? "all" : "most"} of ${counted(runs, "run")} of ${label} lie`] : []));
+      ...(behind ? [swatch("band"), behind.words
+        ?? `where ${behind.has_all ? "all" : "most"} of ${counted(runs, "run")} of ${label} lie`] : []));
   }
 
   /** Update the menu of maps, which change with the agent, in some conditions during a run. */
@@ -69,18 +70,19 @@ class Showing {
 
   draw(now = performance.now()) {
     const { panel, traits, hands, second, tank: { run: { frame, cursor, world, rate } } } = this;
-    const isLoading = !frame && !panel.failed;
-    if (!panel.arena.clientWidth || (isLoading && this.drawn)) return; // keep the last picture while loading
+    const [isLoading, colours] = [!frame && !panel.failed, readColours(panel.root)];
+    if (!panel.arena.clientWidth) return;
+    this.drawCurve(colours); // whose recorded part is there at once
+    this.showWay();
+    if (isLoading && this.drawn) return; // keep the last picture while loading
     Object.assign(this, { drawn: now, stale: false });
-    const colours = readColours(panel.root);
     second.draw(colours);
     drawArena(panel.arena, colours, frame, { cursor, trail: panel.control("trail").checked });
     this.arrange(Boolean(frame?.arm));
     if (frame?.arm) drawLimb(panel.limb, colours, frame);
-    this.drawRates(colours);
+    this.drawCatches(colours);
     hands.placeHandles();
     this.showKey();
-    this.showWay();
     if (frame && !this.running()) panel.part(".unseen").textContent = describe(frame);
     panel.part(".minutes").textContent = second.beside ? this.minutes() : this.progress(); // the tanks have titles
     panel.part(".pace").textContent = this.running() && rate
@@ -95,14 +97,34 @@ class Showing {
     this.draw(); // at once, since the page is printed as soon as this returns
   }
 
-  /** Draw and write what the run has earned and met, and that of the second tank. */
-  drawRates(colours) {
-    const { panel, traits, hands, second: other, tank: { run, run: { frame, length, world, second } } } = this;
-    const [frames, fps] = [[frame, second?.frame].filter(Boolean), world.fps];
-    const span = { seconds: length.steps / fps, binSeconds: length.bin / fps, elapsed: (frame?.step ?? 0) / fps };
-    const earned = frames.map(({ rewards }, tank) => ({ totals: rewards, colour: ["agent", "place"][tank] }));
+  /** The length of the run and its bins, and how much of it there is, in seconds. */
+  span() {
+    const { frame, length, world: { fps } } = this.tank.run;
+    return { seconds: length.steps / fps, binSeconds: length.bin / fps, elapsed: (frame?.step ?? 0) / fps };
+  }
+
+  frames() {
+    const { frame, second } = this.tank.run;
+    return [frame, second?.frame].filter(Boolean);
+  }
+
+  /** What other runs of these settings have earned, to be drawn behind: of the record, or else of the page. */
+  behind() {
+    const { behind, band } = this.traits.shown;
+    return behind ?? band;
+  }
+
+  /** Draw what the run has earned, and that of the second tank, over those before and behind. */
+  drawCurve(colours) {
+    const earned = this.frames().map(({ rewards }, tank) => ({ totals: rewards, colour: ["agent", "place"][tank] }));
     const all = [this.before, ...earned.reverse()].filter(Boolean);
-    drawCurves(panel.curve, colours, span, all, traits.shown.band);
+    drawCurves(this.panel.curve, colours, this.span(), all, this.behind());
+  }
+
+  /** Draw and write what the run has met, and that of the second tank. */
+  drawCatches(colours) {
+    const { panel, traits, hands, second: other, tank: { run, run: { frame, second } } } = this;
+    const [frames, span] = [this.frames(), this.span()];
     drawCurves(panel.catches, colours, span, frames.flatMap(({ hits }, tank) => hits.map(({ kind, counts }) =>
       ({ totals: counts, per: 60, colour: COLOUR_OF.get(kind) ?? "place", isDashed: tank > 0 }))));
     const inWords = ({ hits }) => hits.map(({ kind, counts }) =>
@@ -138,9 +160,10 @@ class Showing {
 
   /** The step to which a run is on its way at full speed, or 0. */
   destination() {
-    const { panel, traits, tank: { run: { due, length } } } = this;
+    const { panel, traits, tank: { run: { frame, due, length } } } = this;
     if (due?.hurries) return due.until ?? due.step;
-    return panel.only && this.running() && traits.get("speed") === 0 ? length.steps : 0;
+    const goesOn = frame ? this.running() : traits.get("playing") && !panel.failed;
+    return panel.only && goesOn && traits.get("speed") === 0 ? length.steps : 0;
   }
 
   showWay() {

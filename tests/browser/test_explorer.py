@@ -15,7 +15,8 @@ from neorl import (CALIBRATED, Agent, Condition, Desire, Explorer, Learning, Nod
 from neorl.worlds import Arena, Vessel
 from neorl.agents.papers import OF_OBJECTS
 from neorl.agents.spaces import pilot
-from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OTHER_SPACES, STEPS
+from neorl.browser.curves import CURVE_BINS
+from neorl.browser.explorer import AGENTS, IN_THE_ARENA, OTHER_SPACES, STEPS
 from neorl.browser.settings import SETTINGS
 from neorl.core import modality
 from companion.thesis.reading import TO_THE_LETTER as LETTER
@@ -240,6 +241,17 @@ def test_a_page_chooses_an_agent_together_with_its_settings_or_without_any():
 def test_what_cannot_be_shown_is_refused(what, allowed):
     with pytest.raises(ValueError, match=allowed):
         Explorer(what)
+
+
+@pytest.mark.parametrize("behind, allowed", [
+    ([1], r"behind must be a dict, but is \[1\]"), ({"Y": (1, [1], [1], [1], "")}, "of a curve behind must be 'X'"),
+    ({"X": (1, [1], [1], [1])}, r"behind of X must be \(minutes, mean, low, high, what it is\), but is "),
+    ({"X": (0, [1], [1], [1], "")}, "minutes behind X must be "), ({"X": (1, [], [], [], "")}, "or more, but has 0, 0"),
+    ({"X": (1, [1, 2], [1], [1, 2], "")}, "but has 2, 1 and 2"), ({"X": (1, [[1]], [1], [1], "")}, "as many means as "),
+    ({"X": (1, [1], [np.nan], [1], "")}, "behind of X must be "), ({"X": (1, [1], [1], [1], 2)}, "words on X must be")])
+def test_curves_that_cannot_be_drawn_behind_are_refused(behind, allowed):
+    with pytest.raises(ValueError, match=allowed):
+        Explorer({"X": PAIR}, behind=behind)
 
 
 def test_an_agent_with_other_choices_keeps_them():

@@ -355,6 +355,31 @@ def test_a_control_by_itself_draws_a_whole_run_for_each_setting_and_keeps_the_la
     expect(legend).to_have_text("N5: this runN3, N5: the one before")
 
 
+def test_a_recorded_curve_is_there_before_the_run_of_its_setting(conditions, tmp_path, open_page):
+    rising = np.linspace(0, 1, 50)
+    behind = {"N3": (20 / 3, rising, rising - 0.1, rising + 0.1, "the record, 7 runs")}
+    offered = conditions | {"N3": Condition(place_cells([3]), TANK, SIZE["steps"], 1, SIZE["seed"])}
+    write_page(tmp_path, [Explorer(offered, "places", behind, control="resolutions")])
+    page = open_page(tmp_path, "page.html")
+    wait(page, "ended")
+    legend = page.locator(".legend")
+    expect(legend).to_contain_text("of 12 runs of places lie")
+    expect(page.locator("progress")).to_be_hidden()
+    page.evaluate("() => { Worker.prototype.postMessage = () => null; }")  # which answers no more
+    page.locator(".only .chips button", has_text="5").click()
+    expect(page.locator(".neorl-explorer")).to_have_attribute("data-state", "loading")
+    expect(legend).to_have_text("N3: this runN3, N5: the one beforethe record, 7 runs")
+    expect(page.locator("progress")).to_have_js_property("value", 0)
+    expect(page.locator("progress")).to_be_visible()
+    picture(page, "canvas.curve")
+    curve = page.locator("canvas.curve")
+    line = curve.evaluate("""canvas => {  // at two thirds of the run, above what any of its own earned
+        const { data } = canvas.getContext("2d").getImageData(0.7 * canvas.width, 0, 1, canvas.height / 2);
+        return Array.from(data).filter((value, at) => at % 4 === 3 && value > 80 && data[at - 3] < 80).length;
+    }""")
+    assert line > 0 and coloured(curve)["agent"] == 0
+
+
 def test_with_recursion_as_its_control_a_weight_begins_a_whole_run_also_with_less_motion(visit):
     page = visit("", {"reduced_motion": "reduce"}, preset="Network D", control="recursion", playing=True)
     wait(page, "paused")

@@ -8,7 +8,7 @@ from matplotlib import pyplot as plt
 
 from companion.page import behind
 from companion.thesis.reading import READINGS, conditions
-from neorl import Result, drawing
+from neorl import Explorer, Result, drawing
 
 PAPER_C = conditions(READINGS["calibrated"], 3_000, 3, groups=["networks"])
 
@@ -34,6 +34,23 @@ def test_the_record_knows_a_result_by_its_agents_and_world_however_long_it_ran()
     assert behind.recorded(result()).runs == behind.recorded(result(runs=12, seed=5)).runs == 1_000
     other = replace(PAPER_C["network", "C"].world, n_creeps=4)
     assert behind.recorded(result("D")) is behind.recorded(result(world=other)) is None
+
+
+def test_what_an_explorer_offers_has_the_curve_of_what_is_recorded_of_it():
+    offered = {"figure 4d": PAPER_C["network", "C"], "figure 4e": result("D")}
+    assert [*behind.curves_of(offered)] == ["figure 4d"]
+    minutes, mean, low, high, words = behind.curves_of(offered)["figure 4d"]
+    assert (minutes, words) == (100, "the record, 1,000 runs")
+    np.testing.assert_allclose([mean[-1], low[-1], high[-1]], [0.3, 0.2, 0.4])
+    assert Explorer(offered, behind=behind.curves_of(offered))._presets["figure 4d"]["behind"]["edges"][-1] == 6_000
+
+
+def test_where_there_is_no_record_nothing_is_behind(monkeypatch, tmp_path):
+    monkeypatch.undo()
+    monkeypatch.setattr(behind, "CURVES", tmp_path / "curves.json")
+    behind._curves.cache_clear()
+    assert behind.curves_of({"C": result()}) == {}
+    behind._curves.cache_clear()
 
 
 def test_few_runs_have_the_record_behind_them_and_many_stand_for_themselves():

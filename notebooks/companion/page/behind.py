@@ -36,7 +36,7 @@ class Recorded(NamedTuple):
 
 
 def recorded(result):
-    """What the record has of a `Result`'s agents in its world, as `Recorded`, or None if it has nothing."""
+    """What the record has of the agents of a `Result` or `Condition` in their world: `Recorded`, or None."""
     key = next((each for each, condition in _known().items() if judging.same(result, condition)), None)
     return key and recorded_runs(*key)
 
@@ -46,6 +46,13 @@ def recorded_runs(reading, name):
     found = _curves()[reading][name]
     return Recorded(found["runs"], found["minutes"], np.array(found["curve"]), Estimate(*found["whole"]),
                     Estimate(*found["final"]))
+
+
+def curves_of(conditions):
+    """What the record has of those that an Explorer offers, {name: `Condition` or `Result`}, for its `behind`."""
+    known = {name: recorded(condition) for name, condition in conditions.items()}
+    return {name: (found.minutes, *found.curve, f"the record, {found.runs:,} runs")
+            for name, found in known.items() if found}
 
 
 def words(key):
@@ -142,12 +149,12 @@ def _named(axes, runs):
 
 @cache
 def _curves():
-    return json.loads(CURVES.read_text("utf-8"))
+    return json.loads(CURVES.read_text("utf-8")) if CURVES.is_file() else {}
 
 
 @cache
 def _known():
     """The conditions that the record has curves of: {(reading, name): `Condition`}."""
     of_papers = {(name, words(key)): condition for name, reading in READINGS.items()
-                 for key, condition in conditions(reading, LENGTHS["B"], 1).items() if words(key) in _curves()[name]}
+                 for key, condition in conditions(reading, LENGTHS["B"], 1).items() if words(key) in _curves().get(name, {})}
     return of_papers | {("calibrated", "forager"): Condition(forager(), WaterWorld(n_creeps=3), 1, 1)}
