@@ -65,9 +65,12 @@ $(CHAPTERS)/%.ipynb: notebooks/%.ipynb $(SOURCES) $(CHAPTERS)/.parameters
 	@$(BIN)/python book/computing/compute.py $< $(if $(RUNS),--runs $(RUNS)) $(if $(STEPS),--steps $(STEPS)) --reading $(READING)
 
 # One core builds the WebAssembly modules while the first page compiles the kernels for all others.
-$(CHAPTERS)/.modules: $(SOURCES)
+AT_ONCE := 1
+$(CHAPTERS)/.modules: $(SOURCES) | .venv/ready
 	@mkdir -p $(@D)
-	@$(BIN)/python -c "from neorl.browser import wasm; wasm.modules(at_once=1)"
+	@echo "compiling the kernels for the browser, unless .cache has them: a minute or more …"
+	@$(BIN)/python -c "from neorl.browser import wasm; wasm.modules(at_once=$(AT_ONCE))"
+	@echo "the kernels for the browser are ready"
 	@touch $@
 
 $(call page,$(EXPLORERS)): | $(CHAPTERS)/.modules
@@ -115,7 +118,8 @@ package:
 verify: .venv/ready
 	$(BIN)/python book/computing/verify.py --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
 
-lab: .venv/ready
+lab: AT_ONCE := 2
+lab: .venv/ready $(CHAPTERS)/.modules
 	$(BIN)/jupyter lab --ServerApp.root_dir=. --LabApp.default_url=/lab/tree/notebooks \
 	    --ContentsManager.pre_save_hook=companion.page.saving.keep_source \
 	    $(if $(filter 0,$(shell id -u)),--allow-root) $(ARGS)
@@ -143,8 +147,9 @@ wheel: .venv/ready
 # find `companion` from any folder, and what computes and writes the book finds its parts.
 .venv/ready: environment.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; name it with make PYTHON=...")'
+	@echo "installing the packages of environment.txt into .venv, once: some minutes …"
 	$(PYTHON) -m venv --clear .venv
-	$(BIN)/python -m pip install --quiet --no-deps --no-compile -r environment.txt
+	$(BIN)/python -m pip install --no-deps --no-compile -r environment.txt
 	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
 	cd .venv/lib/python3.* && printf "%s\n" "$(CURDIR)/notebooks" "$(CURDIR)/book" > site-packages/pages.pth
 	touch $@

@@ -18,7 +18,6 @@ and its traits, which are the controls.
 import contextlib
 from collections.abc import Mapping
 from dataclasses import replace
-from importlib import resources
 
 import numpy as np
 
@@ -27,7 +26,8 @@ from neorl.agents.agent import LEARNED, STATES, Agent, Desire, Node
 from neorl.agents.embodiment import choices_in, loop_of
 from neorl.agents.rules import Learning, Policy
 from neorl.browser import curves, wasm
-from neorl.browser.figure import Figure, beginning, curve
+from neorl.browser.figure import beginning, curve
+from neorl.browser.living import Living, text_of
 from neorl.browser.settings import (AVOIDED, SETTINGS, Checked, check, described, integers, reals, settings_of,
                                     stated_nodes)
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
@@ -74,16 +74,11 @@ STEPS = 300_000  # of a run of an agent that is not a condition of the page
 LITTLE_HAPPENS = 120_000  # first steps of networks of desires, which the page runs at full speed
 SCRIPTS = ("elements.js", "settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js",
            "panel.js", "traits.js", "tank.js", "hands.js", "beside.js", "controls.js", "showing.js", "starters.js",
-           "address.js", "tour.js", "saving.js", "widget.js", "shared.js")
+           "address.js", "tour.js", "saving.js", "widget.js", "waiting.js", "shared.js")
 CONTROLS = ("preset", "resolutions", "modality", "object_state", "recursion", "valence_red")
 
 
-def text_of(*names):
-    """The content of text files beside this one, one after the other."""
-    return "\n".join((resources.files(__package__) / name).read_text(encoding="utf-8") for name in names)
-
-
-class Explorer(Figure):
+class Explorer(Living):
     """A neoRL agent to watch, change and play against; in JupyterLab and, from its stored state, in a static page.
 
     conditions: {name: `Result`}, the conditions of the page, in worlds of the package; their bands and runs are shown.
@@ -114,15 +109,12 @@ class Explorer(Figure):
     contacts; agents in the arena are in a `neorl.worlds.Arena`, and agents of other spaces in their own worlds.
     seconds and score follow the run, about once per second. All views of an Explorer share that run.
 
-    Raises ValueError for a condition or a curve that cannot be shown, TraitError for a bad trait, RuntimeError if the
-    WebAssembly module cannot be built.
+    Raises ValueError for a condition or a curve that cannot be shown, TraitError for a bad trait, and, but in
+    JupyterLab, where the page says so, RuntimeError if a WebAssembly module cannot be built.
     """
 
     _esm = text_of(*SCRIPTS)
     _css = text_of("widget.css")
-    _engine = traitlets.Unicode(text_of("machine.js", "views.js", "changing.js", "engine.js")).tag(sync=True)
-    _wasm = traitlets.Dict().tag(sync=True)
-    _layout = traitlets.Dict().tag(sync=True)
     _presets = traitlets.Dict().tag(sync=True)
     _modalities = traitlets.Dict().tag(sync=True)
     _agents = traitlets.Dict()  # of the presets, and their worlds
@@ -151,8 +143,7 @@ class Explorer(Figure):
 
     def __init__(self, conditions=None, preset=None, behind=None, **traits):
         with self._choosing(True):
-            super().__init__(_wasm=wasm.modules(), _layout={name: wasm.layout(name) for name in wasm.MODULES},
-                             _modalities=_modalities(), **self._shown(conditions, preset, behind, traits))
+            super().__init__(_modalities=_modalities(), **self._shown(conditions, preset, behind, traits))
 
     def show(self, conditions=None, preset=None, behind=None, **traits):
         """Show other conditions wherever this Explorer stands, such as results that have been computed since.

@@ -12,16 +12,20 @@ function damageOf(model) {
   const sound = { _presets: isFull, _modalities: isFull, _layout: isFull, _engine: (text) => Boolean(text),
     _wasm: (all) => isFull(all) && Object.values(all).every((each) => ArrayBuffer.isView(each) && each.byteLength) };
   const missing = Object.keys(sound).filter((name) => !sound[name](model.get(name)));
+  const { failed } = model.get("_compiling") ?? {};
+  if (failed) return `The kernels for the browser were not compiled: ${failed}`;
   return missing.length ? `The Explorer cannot start: this page does not hold its ${missing.join(", ")}.` : "";
 }
 
 export default () => {
-  let [model, explorer] = [null, null];
+  let [model, explorer, endWaiting] = [null, null, () => null];
   const places = []; // of the views; the Explorer stands in the last one
 
   function settle() {
     const last = places.at(-1);
+    endWaiting();
     if (!last) explorer?.stop(), explorer = null;
+    else if (!explorer && isCompiling(model)) endWaiting = waitIn(last, model, model.get("_presets")[model.get("preset")]);
     else if (!explorer) start(last);
     else if (explorer.panel.root.parentElement !== last) last.replaceChildren(explorer.panel.root);
     if (explorer) for (const other of places.slice(0, -1)) other.replaceChildren(elementOf(ELSEWHERE));
@@ -51,6 +55,7 @@ export default () => {
         explorer = null;
         settle();
       });
+      for (const name of ["_wasm", "_compiling"]) model.on(`change:${name}`, () => explorer || settle());
     },
     render({ el }) {
       const place = element("div", { className: "neorl-place" });

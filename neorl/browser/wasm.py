@@ -117,6 +117,12 @@ def modules(at_once=len(MODULES)):
     return found
 
 
+def found():
+    """The WebAssembly modules if all are shipped or on disk, else {}."""
+    on_disk = _on_disk()
+    return on_disk if len(on_disk) == len(MODULES) else {}
+
+
 def _on_disk():
     found = {}
     for name, path in SHIPPED.items():

@@ -104,7 +104,13 @@ class Turn {
 }
 
 function render({ model, el }) {
-  return new Turn(model, el).stop;
+  const begin = () => (isCompiling(model) ? waitIn(el, model) : new Turn(model, el).stop);
+  let stop = begin();
+  model.on("change:_wasm", () => {
+    stop();
+    stop = begin();
+  });
+  return () => stop();
 }
 
 export default { render };

@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from neorl.browser import wasm
-from neorl.browser.explorer import Explorer, parameters_in_page, text_of, traitlets, world_in_page
-from neorl.browser.figure import Figure, beginning
+from neorl.browser.explorer import parameters_in_page, world_in_page
+from neorl.browser.figure import beginning
+from neorl.browser.living import Living, text_of, traitlets
 
-SCRIPTS = ("elements.js", "simulator.js", "drawing.js", "movers.js", "curve.js")
+SCRIPTS = ("elements.js", "simulator.js", "drawing.js", "movers.js", "curve.js", "waiting.js")
 
 
-class Turn(Figure):
+class Turn(Living):
     """An agent that avoids red creeps for a while and then wants them.
 
     on, off: two `neorl.Condition` in WaterWorld with one change each, the same but for learning after it.
@@ -17,14 +17,11 @@ class Turn(Figure):
 
     _esm = text_of(*SCRIPTS, Path(__file__).with_name("turn.js"))
     _css = text_of("widget.css")
-    _engine = traitlets.Unicode(Explorer._engine.default_value).tag(sync=True)
-    _wasm = traitlets.Dict().tag(sync=True)
-    _layout = traitlets.Dict().tag(sync=True)
+    MODULES = ("plane",)
     _runs = traitlets.Dict().tag(sync=True)
 
     def __init__(self, on, off):
-        super().__init__(_wasm={"plane": wasm.modules()["plane"]}, _layout={"plane": wasm.layout("plane")},
-                         _runs={"on": _run(on), "off": _run(off)})
+        super().__init__(_runs={"on": _run(on), "off": _run(off)})
         self._drawn = lambda: beginning(on.world, on.seed)
 
     def _sentence(self):
