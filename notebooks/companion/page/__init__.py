@@ -18,5 +18,5 @@ from companion.page.wording import number, scientific, table
 
 __all__ = ["UNDER_WHITE", "add_arrow", "add_curves", "add_recorded_levels", "add_recorded_numbers",
            "add_recorded_rates", "add_recorded_totals", "answer", "begin", "by_condition", "comparison", "curves_of",
-           "draw_means",           "errata", "final_levels", "found", "judge", "judge_papers", "listed", "mark_levels", "number",
+           "draw_means", "errata", "final_levels", "found", "judge", "judge_papers", "listed", "mark_levels", "number",
            "papers_conditions", "save", "scientific", "source", "table", "verdicts"]

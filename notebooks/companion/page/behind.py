@@ -155,6 +155,7 @@ def _curves():
 @cache
 def _known():
     """The conditions that the record has curves of: {(reading, name): `Condition`}."""
-    of_papers = {(name, words(key)): condition for name, reading in READINGS.items()
-                 for key, condition in conditions(reading, LENGTHS["B"], 1).items() if words(key) in _curves().get(name, {})}
-    return of_papers | {("calibrated", "forager"): Condition(forager(), WaterWorld(n_creeps=3), 1, 1)}
+    of_papers = {(name, words(key)): condition for name, reading in READINGS.items() if name in _curves()
+                 for key, condition in conditions(reading, LENGTHS["B"], 1).items() if words(key) in _curves()[name]}
+    beyond = {("calibrated", "forager"): Condition(forager(), WaterWorld(n_creeps=3), 1, 1)}
+    return of_papers | (beyond if of_papers else {})
