@@ -39,7 +39,7 @@ class Panel {
     const picks = this.control(name).matches("select") ? this.picksOf(presets) : [];
     const title = label.firstElementChild.textContent;
     const group = element("div", { className: "buttons picks", role: "group", ariaLabel: title }, ...picks,
-      elementOf(press("more", "More …")));
+      element("button", { type: "button", dataset: { action: "more" } }, "More …"));
     const control = [label.closest(".setting") ?? label];
     const buttons = [element("p", { className: "title" }, title), group];
     const first = element("div", { className: "only" }, ...(picks.length > 1 ? buttons : control), help);

@@ -118,6 +118,7 @@ CONSTANTS = {
     "neorl/browser/elements.js": ["template.innerHTML = markup;"],
     "neorl/browser/panel.js": ["this.root = elementOf(pageOf("],  # of a random number
     "neorl/browser/shared.js": ["other.replaceChildren(elementOf(ELSEWHERE))"],
+    "neorl/browser/waiting.js": ["const root = elementOf(WAITING);"],
     "neorl/browser/legend.js": ["elementOf(PICTURES[kind])"],
     "neorl/browser/controls.js": ['elementOf(slide(`gain-${index}`, "", 0, 5, 0.1))'],
     "book/explorer.md": ["?.insertAdjacentHTML("],
