@@ -28,7 +28,7 @@ from companion.thesis.statements import AGENTS
 from neorl.experiments.simulation import sweep
 
 SHIPPED = Path(__file__).with_name("base_rate.csv")
-DRAWS, REPLICATES = 128, 10
+DRAWS, REPLICATES = 30, 5
 POINTS = 128  # of the sequence, a power of two, whose first are drawn
 RUNS, SEED = 2, 77_000  # of each condition; the seed of the sequence, and of the runs of row 0
 DRAWN = "drawn"
