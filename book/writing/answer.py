@@ -17,6 +17,7 @@ from companion.thesis.reading import TO_THE_LETTER, Reading
 from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
 from companion.thesis.verdict import FAILED
 
+from writing import base_rate
 from writing.rules import BEFORE
 
 NOT_FITTED = tuple(name for name in AGENTS if name not in FITTED)
@@ -40,7 +41,8 @@ def headline(record):
             f"{_reproduced(record['claims'], FITTED)} of the {len(FITTED)} by which these choices were made, and "
             f"{_reproduced(record['claims'], NOT_FITTED)} of the other {len(NOT_FITTED)}. Of these others only "
             f"{_listed(INDEPENDENT)} rest on conditions that took no part in the choice "
-            f"({_reproduced(record['claims'], INDEPENDENT)} of {len(INDEPENDENT)}). {versions(record)} {runs(record)}")
+            f"({_reproduced(record['claims'], INDEPENDENT)} of {len(INDEPENDENT)}). {versions(record)} "
+            f"{base_rate.finding(base_rate.read())} {runs(record)}")
 
 
 def versions(record):

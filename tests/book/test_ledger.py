@@ -6,7 +6,7 @@ import tomllib
 from dataclasses import replace
 from types import SimpleNamespace
 
-from writing import answer
+from writing import answer, base_rate
 from writing import curves
 from writing import ledger
 from writing import levels
@@ -136,7 +136,7 @@ def test_one_headline_stands_on_all_pages_and_counts_what_was_used_to_choose_the
         "choice (0 of 4). By the rules before their last change it was 1 to the letter and 2 calibrated. An honest "
         "range is 0 to 2, "
         "and 1 to 4: from the claims that every version of their rule reproduces to those that any does, or that are "
-        "undecided now. Claims rest on 100 runs of each condition, or more.")
+        f"undecided now. {base_rate.finding(base_rate.read())} Claims rest on 100 runs of each condition, or more.")
 
 
 def test_every_rule_says_which_commits_fixed_and_changed_it_and_shows_its_code():
