@@ -17,10 +17,11 @@ def finding(rows):
     """What a random reading, the one to the letter and the calibrated one agree with, in a sentence."""
     found, claims = agreeing(rows)
     low, middle, high = np.quantile(found[DRAWN], [0.025, 0.5, 0.975], method="inverted_cdf")
-    marked = " and ".join(f"{_words(kind)} with {found[kind].mean():.3g}, more than {_share(found, kind)}"
-                          for kind in ("letter", "calibrated"))
-    return (f"Of {claims} claims about agents a reading drawn at random agrees with {middle} [{low}, {high}], "
-            f"{marked} of those drawn.")
+    marked = ", and ".join(
+        f"{_words(kind)} with {found[kind].mean():.3g}, more than {_share(found, kind)} of those drawn"
+        for kind in ("letter", "calibrated"))
+    return (f"Of {claims} claims about agents a reading drawn at random agrees with {middle} [{low}, {high}]; "
+            f"{marked}.")
 
 
 def section(rows=None):

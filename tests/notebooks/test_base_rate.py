@@ -83,9 +83,9 @@ def test_the_base_rate_s_caption_ends_in_its_finding_and_the_bars_count_the_read
     rows = [Row(kind, number, {name: place < each for place, name in enumerate(names)})
             for kind, of_kind in numbers.items() for number, each in enumerate(of_kind)]
     text = section(rows)
-    assert text.endswith("Of 5 claims about agents a reading drawn at random agrees with 1 [0, 3], the reading to the "
-                         "letter with 1.5, more than 75\u00a0% and the calibrated one with 4.5, more than all of those "
-                         "drawn.")
+    assert text.endswith("Of 5 claims about agents a reading drawn at random agrees with 1 [0, 3]; the reading to the "
+                         "letter with 1.5, more than 75\u00a0% of those drawn, and the calibrated one with 4.5, more "
+                         "than all of those drawn.")
     assert "Bars: 8 readings" in text and "repeated 2 times" in text
     assert "of the 2 others a random reading agrees with 0 on average, and the calibrated one with 1.5" in text
     heights = [float(height) for height in re.findall(r'<rect[^>]*height="([\d.]+)"', text)]
