@@ -31,7 +31,7 @@ TRIED = ("chapter_1", "paper_a", "paper_b", "paper_c")  # the others are tried b
 BEFORE = ".legend", "before"  # the curve of the last run stays beside the next one's
 ANSWERS = [  # a control of a living figure, what a reader does to it, and where the figure then says what
     (".only [data-chip]", Locator.click, *BEFORE),
-    (".only select", lambda menu: menu.select_option(index=1), *BEFORE),
+    ('.only [data-pick][aria-pressed="false"]', Locator.click, *BEFORE),
     (".only [type=range]", lambda slider: slider.fill("0.5"), *BEFORE),
     ("[name=time]", lambda slider: slider.fill("25"), "output", re.compile("^(1.0 s|0:[0-5]?[1-9])")),
     ("[data-more]", Locator.click, "caption", "From column"),
