@@ -141,7 +141,7 @@ def test_links_from_the_source_of_a_module_to_its_documentation_lead_somewhere()
 def test_the_answer_has_a_row_for_each_claim_and_fits_on_a_phone(open_page):
     page = open_page(HTML, "claims.html")
     rows = page.locator("table.numbers tbody th a")
-    assert sorted(rows.all_inner_texts()) == sorted(CLAIMS)
+    assert sorted(rows.all_inner_texts()) == sorted(STATEMENTS)
     page.set_viewport_size({"width": 400, "height": 800})
     assert page.evaluate("document.documentElement.scrollWidth") <= 400
     rows.first.click()
