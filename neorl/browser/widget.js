@@ -132,15 +132,16 @@ class Explorer {
     if (preset) return controls.drawWhole(this.panel.only), starters.choose(preset);
     const acts = { play: () => this.togglePlay(), step: () => this.step(), "go-on": () => this.goOn(),
       reset: () => starters.reset(), "new-run": () => starters.next(), open: () => starters.open(),
-      watch: () => starters.watch(), red: () => (starters.stops("red") ? starters.stop() : starters.revalueRed()),
-      corner: () => (starters.stops("corner") ? starters.stop() : starters.showCorner()), compare: () => starters.compare(), game: () => (this.tank.run.game ? hands.leaveGame() : starters.play()),
+      watch: () => starters.watch(), red: () => starters.revalueRed(), corner: () => starters.showCorner(),
+      compare: () => starters.compare(), game: () => (this.tank.run.game ? hands.leaveGame() : starters.play()),
       drop: () => hands.beginDrop(detail === 0), delete: () => hands.deleteElement(),
       clear: () => hands.clearElements(),
       link: () => saving.copyLink(), picture: () => saving.savePicture(), csv: () => saving.saveRun(),
-      more: () => this.panel.unfold(), alone: () => saving.showAlone(), tour: () => tour.start(), next: () => tour.next(), end: () => tour.end() };
+      more: () => this.panel.unfold(), alone: () => saving.showAlone(), tour: () => tour.start(),
+      next: () => tour.next(), end: () => tour.end() };
     this.address.touched ||= action in acts;
     if (TO_WATCH.includes(action)) this.panel.showTank();
-    return acts[action]?.();
+    return action in LABELS && starters.stops(action) ? starters.stop() : acts[action]?.();
   }
 
   pressed(event) {
