@@ -32,7 +32,6 @@ from companion.thesis.statements import STATEMENTS
 
 from computing.compute import ROOT, records
 from computing.verify import recomputed
-from neorl import Condition, WaterWorld, forager
 from neorl.common.files import write_whole
 from neorl.experiments.condition import source_digest
 from neorl.experiments.simulation import sweep
@@ -46,7 +45,7 @@ RUNS = {"claims": CALIBRATED, "letter": CALIBRATED | dict.fromkeys(
 CONTROLS = 1_000  # runs of Brownian motion
 OF_PAGES = 100  # runs of claims that pages judge
 AT_50 = {"layers": 100, "single": 50}  # of the calibrated reading with paper A at 50 steps per second
-FORAGER = Condition(forager(), WaterWorld(n_creeps=3), LENGTHS["A"], OF_PAGES, SEED)  # of the page beyond the thesis
+FORAGER = replace(behind.FORAGER, runs=OF_PAGES, seed=SEED)
 REMEDY = "make record"
 SAMPLED = (("brownian", 8), ("layer", 7), "layers", ("single", 50), ("place", "all"), ("objects", "all"), "both",
            *(("network", name) for name in "ABCD"), "revalued")

@@ -7,13 +7,13 @@
 
 import json
 
-from companion.page import counts, opening, recorded, report
-from companion.page.wording import table
+from companion.page import answers, counts, opening, recorded, report
+from companion.page.wording import enumerated, table
 from companion.study import sensitivity
 from companion.study.calibration_targets import CLAIMS as FITTED
 from companion.thesis.pins import PINS
 from companion.thesis.priors import WITHIN
-from companion.thesis.reading import TO_THE_LETTER, Reading
+from companion.thesis.reading import TO_THE_LETTER
 from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
 from companion.thesis.verdict import FAILED
 
@@ -34,14 +34,16 @@ REPRODUCED = "Claims", "Reproduced to the letter", "Reproduced calibrated"
 
 def headline(record):
     """What is reproduced of the claims about agents, in a few sentences. record: see `report.record`."""
-    letter, calibrated = (_reproduced(record[part], AGENTS) for part in ("letter", "claims"))
+    letter, _ = counts.reproduced(record["letter"], AGENTS)
+    calibrated, fitted, others, independent = (counts.reproduced(record["claims"], names)[0]
+                                               for names in (AGENTS, FITTED, NOT_FITTED, INDEPENDENT))
     return (f"The thesis makes {len(AGENTS)} claims about its agents. With every gap of its text filled by the "
             f"plainest choice (“to the letter”), {letter} of them {'is' if letter == 1 else 'are'} reproduced; with "
-            f"{_departing()} of the gaps filled otherwise, as fits best (“calibrated”), {calibrated} are: "
-            f"{_reproduced(record['claims'], FITTED)} of the {len(FITTED)} by which these choices were made, and "
-            f"{_reproduced(record['claims'], NOT_FITTED)} of the other {len(NOT_FITTED)}. Of these others only "
-            f"{_listed(INDEPENDENT)} rest on conditions that took no part in the choice "
-            f"({_reproduced(record['claims'], INDEPENDENT)} of {len(INDEPENDENT)}). {versions(record)} "
+            f"{answers.choices()['departing']} of the gaps filled otherwise, as fits best (“calibrated”), "
+            f"{calibrated} are: {fitted} of the {len(FITTED)} by which these choices were made, and {others} of the "
+            f"other {len(NOT_FITTED)}. Of these others only "
+            f"{enumerated(INDEPENDENT)} rest on conditions that took no part in the choice "
+            f"({independent} of {len(INDEPENDENT)}). {versions(record)} "
             f"{base_rate.finding(base_rate.read())} {runs(record)}")
 
 
@@ -77,7 +79,7 @@ def runs(record):
     usual = [fewer.pop(number) and number for number in sorted(fewer) if number >= USUAL]
     many = " to ".join(f"{number:,}" for number in sorted({*usual[:1], *usual[-1:]}))
     parts = [f"Claims rest on {many} runs of each condition, or more"] if usual else []
-    parts += [f"{_listed(names)} on {number}" for number, names in sorted(fewer.items())]
+    parts += [f"{enumerated(names)} on {number}" for number, names in sorted(fewer.items())]
     return f"{'; '.join(parts)}." if parts else ""
 
 
@@ -91,8 +93,8 @@ def dependence(record, found):
                      f"{_link(first)}, the most robust of the claims used for the fit, and {100 * shares[last]:.0f}"
                      f"\u00a0% with {_link(last)}, the most fragile.")
     if deciding := _deciding(found):
-        lost = _listed([_link(name) for name in found.flips[deciding[0]].lost]) or "none"
-        others = f"; next, on {_listed([_called(name) for name in deciding[1:3]])}" if deciding[1:] else ""
+        lost = enumerated([_link(name) for name in found.flips[deciding[0]].lost]) or "none"
+        others = f"; next, on {enumerated([_called(name) for name in deciding[1:3]])}" if deciding[1:] else ""
         parts.append(f"Most depends on {_called(deciding[0])}: without its calibrated value, all else unchanged, "
                      f"{lost} would be lost{others}.")
     return " ".join([*parts, rate_of_paper_a(record)]).strip()
@@ -104,7 +106,7 @@ def rate_of_paper_a(record):
         return ""
     other = {name: each for name, each in record["paper A at 50"].items()
              if each["verdict"] != report.verdict(record, name)}
-    changed = _listed([f"{_link(name)} would be {each['verdict']} ({report.number(each)})"
+    changed = enumerated([f"{_link(name)} would be {each['verdict']} ({report.number(each)})"
                        for name, each in other.items()]) or "no verdict would change"
     return ("Paper A runs at 30 steps per second in the calibrated reading, and papers B and C at 50: with 50 for all, "
             f"{changed}.")
@@ -148,7 +150,7 @@ def fails(record):
              f"{report.number(record['claims'][name])}. "
              f"{recorded.said(record['claims'][name], STATEMENTS[name].why or NEVER)}" for name in always]
     others = [_link(name) for name in both if name not in always]
-    return "\n".join([*lines, f"\nContradicted under the two readings of the figure as well: {_listed(others)}."
+    return "\n".join([*lines, f"\nContradicted under the two readings of the figure as well: {enumerated(others)}."
                       if others else ""])
 
 
@@ -166,9 +168,10 @@ def sections(record, found):
         "What decides": (
             "Each row sets one choice of the calibrated reading back to the letter and runs the papers again. A claim "
             "is lost if its means no longer agree with the thesis, by more than two standard errors, and gained if "
-            f"they come to agree. Of the {_departing()} choices that depart from the letter, {len(found.flips)} were "
-            f"set back, in {_runs_set_back(found)} runs of each condition, fewer than the record has; the table has "
-            f"the {DECIDING} that flip most claims. [All choices](chapters/assumptions.ipynb) are on the next page.",
+            f"they come to agree. Of the {answers.choices()['departing']} choices that depart from the letter, "
+            f"{len(found.flips)} were set back, in {_runs_set_back(found)} runs of each condition, fewer than the "
+            f"record has; the table has the {DECIDING} that flip most claims. "
+            "[All choices](chapters/assumptions.ipynb) are on the next page.",
             decides(found)),
         "Fails in any reading, and why": (
             "However the gaps are filled, these do not come out as stated.", fails(record)),
@@ -184,11 +187,6 @@ def _runs_set_back(found):
     return " to ".join(map(str, sorted({min(numbers), max(numbers)})))
 
 
-def _departing():
-    """The number of open choices in which the calibrated reading departs from the letter."""
-    return sum(Reading().choices[name] != TO_THE_LETTER.choices[name] for name in WITHIN)
-
-
 def _deciding(found):
     """The choices that flip claims, those that flip most first: a list of names."""
     return [name for name, each in found.flips.items() if any(each)]
@@ -198,11 +196,6 @@ def _share(record, name):
     """The share of evenly drawn readings that agree with a claim, −1 if it was not measured."""
     share = record["shares"].get(name, {})
     return share["agrees"] / share["measured"] if share.get("measured") else -1
-
-
-def _reproduced(found, names):
-    count, _ = counts.reproduced(found, names)
-    return count
 
 
 def _link(name):
@@ -216,11 +209,3 @@ def _lower(name):
 
 def _called(choice):
     return f"*{WITHIN[choice].label.split(',')[0]}*"
-
-
-def _listed(words):
-    if not words:
-        return ""
-
-    *first, last = words
-    return f"{', '.join(first)} and {last}" if first else last

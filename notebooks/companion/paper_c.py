@@ -1,6 +1,6 @@
 """What the page on paper C needs beside its experiment: drawings, where desires land, and runs that stand still.
 
-Results are {name: `Result`}, of networks "A" to "D", of the agents `ALONE` that pass no desires, and of "Brownian"
+Results are {name: `Result`}, of networks "A" to "D", of the agents `NODES` that pass no desires, and of "Brownian"
 motion, all on one board.
 """
 
@@ -20,8 +20,7 @@ from companion.thesis.verdict import FINAL
 from neorl.experiments.run import Run
 from neorl.statistics import estimate, ratio
 
-ALONE = dict(zip(NODES, ("places alone", "object vectors alone", "both in one layer")))  # names of the page
-STYLES = looks(4) + [(colour, "--") for colour in CURVES[4:]] + [(INK, ":")]  # networks, `ALONE`, Brownian motion
+STYLES = looks(4) + [(colour, "--") for colour in CURVES[4:]] + [(INK, ":")]  # networks, `NODES`, Brownian motion
 DRASTIC = STATEMENTS["C4"].bounds.low  # times as much as C
 LOOKS = 500  # samples of each run, in its second half
 WELL_INSIDE = 0.2  # board widths from the middle
@@ -201,7 +200,7 @@ def explored(greedy, exploring):
                                                          _of_runs(side[name])))] for name in exploring]
     every = [{name: side[name].rate(*FINAL) for name in exploring} for side in sides]
     moving = [{name: final[name][~still(side[name])] for name in "CD"} for final, side in zip(every, sides)]
-    best = [max(ALONE.values(), key=lambda name, final=final: final[name].mean()) for final in every]
+    best = [max(NODES.values(), key=lambda name, final=final: final[name].mean()) for final in every]
     ratios = [["D / best without desires", *(f"{_over(final['D'], final[name])} ({name})"
                                              for final, name in zip(every, best))],
               ["D / C", *(_over(final["D"], final["C"]) for final in every)],
@@ -218,12 +217,12 @@ def _over(rewards, others):
 def explorer_conditions(results, of_paper):
     """The conditions that the page's Explorer offers: {name: `Condition` or `Result`}, as they were given."""
     paper = "Paper C" if of_paper else "After paper C"
-    return {f"{paper}, {name if name in ALONE.values() else f'figure 4e: network {name}'}": result
+    return {f"{paper}, {name if name in NODES.values() else f'figure 4e: network {name}'}": result
             for name, result in results.items()}
 
 
 def of_paper():
     """The paper's own conditions, calibrated, as the page's Explorer offers them before the page has run any."""
     made = conditions(READINGS["calibrated"], LENGTHS["C"], 1, groups=["networks"])
-    made |= {("network", alone): made["node", name] for name, alone in ALONE.items()}
-    return explorer_conditions({name: made["network", name] for name in (*"ABCD", *ALONE.values())}, True)
+    made |= {("network", alone): made["node", name] for name, alone in NODES.items()}
+    return explorer_conditions({name: made["network", name] for name in (*"ABCD", *NODES.values())}, True)

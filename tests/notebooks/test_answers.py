@@ -20,6 +20,6 @@ def test_an_answer_is_in_plain_words_with_one_number_in_bold(page):
 def test_numbers_are_those_of_the_record(monkeypatch):
     claim = {"here": [0.62, 0.6, 0.7], "numbers": {"lead": [[1.5, 1, 2], "", "", "shown"]}}
     monkeypatch.setattr(answers.report, "record", lambda: {"claims": {"T7": claim}})
-    monkeypatch.setattr(answers, "WORDS", {"one": {"answer": "At **{T7 %}** of it, {T7: lead} ahead."}})
+    monkeypatch.setattr(answers, "WORDS", {"one": "At **{T7 %}** of it, {T7: lead} ahead."})
     assert answers.answer("one") == "At <strong>62\u00a0%</strong> of it, 1.50 ahead."
     assert answers.answer("another") == ""

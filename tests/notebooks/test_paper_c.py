@@ -8,7 +8,7 @@ import pytest
 from page_cells import LAST, assert_captions_and_prose_speak_of_what_is_drawn, executed
 
 from companion import paper_c
-from companion.thesis.reading import A_LITTLE, READINGS, Reading, conditions, networks, nodes
+from companion.thesis.reading import A_LITTLE, NODES, READINGS, Reading, conditions, networks, nodes
 from neorl import Condition, Learning, Policy, Result, Run, WaterWorld, network_b, network_c, simulate
 
 
@@ -17,7 +17,7 @@ def test_the_page_runs_and_judges_the_networks_of_a_reading(name):
     page = executed("paper_c", until=LAST[name], reading=name)
     expected = conditions(READINGS[name], 1_000, 2, groups=["networks"])
     ran = {key: each.condition for key, each in (page.results | page.control).items()}
-    names = {"network": lambda name: name, "node": paper_c.ALONE.get, "brownian": lambda creeps: "Brownian"}
+    names = {"network": lambda name: name, "node": NODES.get, "brownian": lambda creeps: "Brownian"}
     assert ran == {names[kind](name): each for (kind, name), each in expected.items()}
     assert {"C1", "C2", "C3", "C4"} <= {claim.name for claim in page.judged}
     assert not any(claim.full_length for claim in page.judged)
@@ -31,7 +31,7 @@ def page():
 
 def test_parameters_are_those_of_the_networks_and_their_variations_and_other_ones_are_not_judged(page):
     reading = Reading(recursion=-0.5, network_resolutions=(2, 7))
-    agents = networks(reading) | {paper_c.ALONE[name]: agent for name, agent in nodes(reading).items()}
+    agents = networks(reading) | {NODES[name]: agent for name, agent in nodes(reading).items()}
     assert {name: each.agent for name, each in page.results.items()} == agents
     assert {each.world for each in page.results.values()} == {WaterWorld(n_creeps=5)} and page.judged == []
     for name, variant in page.variants.items():
@@ -74,7 +74,7 @@ def test_desires_that_land_on_the_agent_are_distinguished_from_those_that_do_not
 
 
 def test_the_page_lets_networks_and_their_nodes_explore(page):
-    assert [*page.exploring] == ["C", "D", *paper_c.ALONE.values()]
+    assert [*page.exploring] == ["C", "D", *NODES.values()]
     for name, result in page.exploring.items():
         agent = page.results[name].agent
         assert result.agent == replace(agent, policy=replace(agent.policy, exploration=A_LITTLE))

@@ -18,7 +18,7 @@ BOLD = re.compile(r"\*\*(.+?)\*\*")
 
 def answer(page):
     """The answer of a page as HTML, with the one number that carries it in bold; "" if it has none."""
-    words = WORDS.get(page, {}).get("answer", "")
+    words = WORDS.get(page, "")
     return BOLD.sub(r"<strong>\1</strong>", NUMBER.sub(lambda found: _number(*found.groups()), words))
 
 
@@ -34,7 +34,7 @@ def _number(name, what, form):
 
 def _found(name, what):
     if name == "choices":
-        return _choices()[what]
+        return choices()[what]
     if name in ("early", "final", "whole"):
         runs = behind.recorded_runs("calibrated", what)
         return runs.curve[:, 0] if name == "early" else getattr(runs, name)
@@ -42,7 +42,7 @@ def _found(name, what):
     return claim["numbers"][what][0] if what else claim["here"]
 
 
-def _choices():
+def choices():
     """How many choices there are in building the agents, how many the text fixes, and how readings fill the others."""
     fixed = sum(pin.status == "pinned" for pin in PINS)
     letter, calibrated = (READINGS[name].choices for name in ("letter", "calibrated"))

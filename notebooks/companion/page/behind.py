@@ -21,6 +21,7 @@ from neorl.drawing.style import INK, SMALL, looks
 from neorl.statistics import FEWEST_RUNS, Estimate
 
 CURVES = resources.files(thesis) / "curves.json"
+FORAGER = Condition(forager(), WaterWorld(n_creeps=3), LENGTHS["A"], 1)  # of the page beyond the thesis
 BINS = 50
 PALE = 0.22  # opacity
 
@@ -44,8 +45,8 @@ def recorded(result):
 def recorded_runs(reading, name):
     """What the record has of a condition under a reading, by its name in `curves.json`: `Recorded`."""
     found = _curves()[reading][name]
-    return Recorded(found["runs"], found["minutes"], np.array(found["curve"]), Estimate(*found["whole"]),
-                    Estimate(*found["final"]))
+    return Recorded(found["runs"], found["minutes"], np.array(found["curve"]),
+                    *(report.estimate_of(found[share]) for share in ("whole", "final")))
 
 
 def curves_of(conditions):
@@ -117,9 +118,9 @@ def add_recorded_numbers(axes, results, claim, what):
     found = report.record()["claims"][claim]
     if min(len(each) for pair in results.values() for each in pair) >= FEWEST_RUNS:
         return axes
-    return _add_levels(axes, range(len(results)), {
-        name: Estimate(*found["numbers"][f"{what}, {name}"][0]) if f"{what}, {name}" in found["numbers"] else None
-        for name in results}, [found["runs"]])
+    numbers = {name: found["numbers"].get(f"{what}, {name}") for name in results}
+    return _add_levels(axes, range(len(results)), {name: number and report.estimate_of(number[0])
+                                                   for name, number in numbers.items()}, [found["runs"]])
 
 
 def _add_levels(axes, xs, estimates, runs):
@@ -157,5 +158,4 @@ def _known():
     """The conditions that the record has curves of: {(reading, name): `Condition`}."""
     of_papers = {(name, words(key)): condition for name, reading in READINGS.items() if name in _curves()
                  for key, condition in conditions(reading, LENGTHS["B"], 1).items() if words(key) in _curves()[name]}
-    beyond = {("calibrated", "forager"): Condition(forager(), WaterWorld(n_creeps=3), 1, 1)}
-    return of_papers | (beyond if of_papers else {})
+    return of_papers | ({("calibrated", "forager"): FORAGER} if of_papers else {})

@@ -9,6 +9,7 @@ from html import escape
 import numpy as np
 from IPython.display import HTML
 
+from companion.page.wording import enumerated
 from companion.thesis.measures import FINAL
 from neorl.statistics import Estimate, estimate
 
@@ -24,9 +25,8 @@ def found(words, numbers=None):
 
 def listed(numbers):
     """Numbers by name in words: "N3 0.10, N7 0.15 [0.12, 0.18] and all 0.63". numbers: {name: `Estimate` or number}."""
-    *first, last = (f"{name} {each if isinstance(each, Estimate) else Estimate(each, each, each)}"
-                    for name, each in numbers.items())
-    return f"{', '.join(first)} and {last}" if first else last
+    return enumerated(f"{name} {each if isinstance(each, Estimate) else Estimate(each, each, each)}"
+                      for name, each in numbers.items())
 
 
 def final_levels(results):

@@ -24,6 +24,12 @@ def in_words(estimate):
     return NEVER if np.isinf(estimate.value) else re.sub(r"−?inf", "never", str(estimate))
 
 
+def enumerated(words):
+    """Words in a row: "a, b and c"; "" of none."""
+    *first, last = [*words] or [""]
+    return f"{', '.join(first)} and {last}" if first else last
+
+
 def number(value, digits=2):
     """A number with `digits` decimals, and a minus sign in place of a hyphen."""
     return f"{value:z.{digits}f}".replace("-", "−")
