@@ -60,6 +60,10 @@ STANDS = """figure => {
     const [{ top }, before] = [figure.getBoundingClientRect(), window.topBefore];
     window.topBefore = top;
     return figure.offsetHeight > 0 && top === before; }"""
+# Whether its run has ended, which goes on in view alone, where cells above it may be rendered later and push it away.
+HAS_ENDED = """figure => {
+    figure.scrollIntoView();
+    return ["ended", "whole"].includes(figure.dataset.state); }"""
 # Whether there is something on every canvas of a figure.
 IS_DRAWN = """figure => [...figure.querySelectorAll("canvas")].filter((each) => each.offsetHeight).every((canvas) => {
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
@@ -299,11 +303,13 @@ def test_the_living_figures_of_a_page_that_has_run_are_there_and_answer(page, na
         output = page.locator(CURRENT).locator(f".jp-Cell:nth-child({page.evaluate(PLACE, cell)})")
         figure = output.locator(".neorl-explorer")
         page.wait_for_function(STANDS, arg=figure.element_handle())
+        if figure.locator(".only [data-pick]").count():
+            expect(figure.locator('.only [aria-pressed="true"]')).to_be_visible()
         control, act, part, answer = next(each for each in ANSWERS if figure.locator(each[0]).count())
         if control.startswith(".only"):
             expect(figure.locator(".legend")).to_contain_text(re.compile("2 runs of|the record, [0-9,]+ runs"))
         if part == ".legend":
-            expect(figure).to_have_attribute("data-state", re.compile("ended|whole"))
+            page.wait_for_function(HAS_ENDED, arg=figure.element_handle())
         page.wait_for_function(IS_DRAWN, arg=figure.element_handle())
         assert figure.bounding_box()["height"] > 200
         expect(output.locator(".neorl-still")).to_have_count(1)

@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from page_cells import executed
+from page_cells import assert_captions_end_with_numbers_of_their_figures, executed
 
 from companion.alternatives import contestants, controllers, contests, search, tabular_learners
 from companion.alternatives.contestants import BROWNIAN, of_thesis
@@ -195,6 +195,7 @@ def test_claims_are_judged_whatever_the_second_board(page, judged):
 
 def test_claims_are_judged_only_of_the_page_s_own_contestants(monkeypatch):
     page = executed("alternatives")
+    assert_captions_end_with_numbers_of_their_figures(page)
     results = {creeps: dict(of_board) for creeps, of_board in page.results.items()}
     results[3]["network D, calibrated"] = results[3]["forager"]
     assert [claim.name for claim in contestants.judge(results, page.boards, page.control)] == ["A10"]

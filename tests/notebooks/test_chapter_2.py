@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from page_cells import executed
+from page_cells import assert_captions_end_with_numbers_of_their_figures, executed
 
 from companion.chapter_2.tuning import (Trajectory, TuningCurve, egocentric, in_field, information,
                                         information_in_spikes, roam, spikes, tuning_curve)
@@ -198,3 +198,7 @@ def test_a_shock_is_forgotten_and_five_apart_are_not(page):
     assert efficacy(24 * 60.0, [0.0]) == pytest.approx(1.0)
     assert efficacy(24 * 60.0, 15.0 * np.arange(5)) == pytest.approx(1 + 4 * share * (1 - share))
     assert efficacy(24 * 60.0, 0.1 * np.arange(5)) < 1.05
+
+
+def test_captions_end_with_numbers_of_their_figures(page):
+    assert_captions_end_with_numbers_of_their_figures(page, ["cell-16"])

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from page_cells import executed
+from page_cells import assert_captions_end_with_numbers_of_their_figures, executed
 
 from companion.chapter_4 import drivers, noise, superposition
 from companion.chapter_4.credit import DEFAULT, INVERSION, Chamber, learn_in
@@ -39,6 +39,8 @@ def test_agents_differ_in_their_temporal_driver_alone(name):
             assert condition == conditions(rule, 1_000, 2, groups=["layers", "modal"])[key]
             assert condition.agent.learning.update_on == "step"
     assert [claim.name for claim in page.judged] == ["T7"] and not page.judged[0].full_length
+    if name == "letter":  # run to the end
+        assert_captions_end_with_numbers_of_their_figures(page, ["cell-26", "cell-45", "cell-04"])
 
 
 @pytest.mark.parametrize("parameters, changes, judged", [

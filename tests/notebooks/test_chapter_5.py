@@ -5,7 +5,7 @@ from dataclasses import replace
 import re
 import numpy as np
 import pytest
-from page_cells import LAST, executed
+from page_cells import LAST, assert_captions_end_with_numbers_of_their_figures, executed
 
 import neorl
 from companion.chapter_5 import conclusions, figures, trials
@@ -142,3 +142,8 @@ def test_pasts_stand_beside_each_other_for_both_desires(reading):
     numbers = report.record()[report.PART_OF[reading]]["T11"]["numbers"]
     value, *_ = numbers["caught a minute, both colours wanted, green wanted before"][0]
     assert f"{value:.0f} [" in rows[1] or f"{value:.2f}" in rows[1]
+
+
+def test_captions_end_with_numbers_of_their_figures():
+    assert_captions_end_with_numbers_of_their_figures(
+        executed("chapter_5", until=LAST["calibrated"], reading="calibrated"))

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from page_cells import executed
+from page_cells import assert_captions_end_with_numbers_of_their_figures, executed
 
 from companion.other_spaces import trials
 from companion.shared.tabular import Rates
@@ -112,3 +112,7 @@ def test_a_claim_is_judged_with_a_verdict_only_of_runs_as_long_as_its_own(page):
 def test_a_claim_is_judged_only_of_the_page_s_own_agents_and_worlds():
     changes = ("HELD = 16", "HELD = 8"), ("(map_of_each, 20_000)", "(map_of_each, 10_000)")
     assert [claim.name for claim in executed("other_spaces", changes, "judging", traffic=12).judged] == ["G1"]
+
+
+def test_captions_end_with_numbers_of_their_figures(page):
+    assert_captions_end_with_numbers_of_their_figures(page, ["spaces-6", "spaces-29"])

@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from page_cells import code, executed, notebook
+from page_cells import assert_captions_end_with_numbers_of_their_figures, code, executed, notebook
 
 from neorl import CARDINAL
 from neorl.custom import execute
@@ -131,3 +131,7 @@ def test_the_turtle_goes_ahead_and_turns_by_an_eighth(page):
     assert [turtle.step(0)[2] for _ in range(2)] == [False, True]
     scene = page.scene_of({"position": np.array([0.1, 0.2]), "heading": np.pi / 2})
     assert np.allclose(scene.velocity, [0, 1]) and np.allclose(scene.position, [0.1, 0.2])
+
+
+def test_captions_end_with_numbers_of_their_figures(page):
+    assert_captions_end_with_numbers_of_their_figures(page)

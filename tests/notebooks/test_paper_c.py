@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from page_cells import LAST, assert_captions_and_prose_speak_of_what_is_drawn, executed
+from page_cells import (LAST, assert_captions_and_prose_speak_of_what_is_drawn,
+                        assert_captions_end_with_numbers_of_their_figures, executed)
 
 from companion import paper_c
 from companion.thesis.reading import A_LITTLE, NODES, READINGS, Reading, conditions, networks, nodes
@@ -132,3 +133,7 @@ def test_what_a_node_says_is_weighted_by_its_gain():
     run.advance(20_000)
     place, objects = paper_c.says(run).splitlines()[2:]
     assert place.startswith("| PC | 0.0000 | 0.0000 | 0.0000 | 0.0000 |") and objects.startswith("| OVC |")
+
+
+def test_captions_end_with_numbers_of_their_figures(page):
+    assert_captions_end_with_numbers_of_their_figures(page, ["still-runs"])

@@ -8,7 +8,7 @@ numbers, tables and parts of figures.
 from companion.page.behind import (add_recorded_levels, add_recorded_numbers, add_recorded_rates,
                                    add_recorded_totals, curves_of)
 from companion.page.beginning import begin, listed, source
-from companion.page.captions import final_levels, found
+from companion.page.captions import final_levels, found, last_levels
 from companion.page.judging import by_condition, judge, judge_papers, papers_conditions
 from companion.page.panels import UNDER_WHITE, add_arrow, add_curves, draw_means
 from companion.page.recorded import answer
@@ -18,5 +18,5 @@ from companion.page.wording import number, scientific, table
 
 __all__ = ["UNDER_WHITE", "add_arrow", "add_curves", "add_recorded_levels", "add_recorded_numbers",
            "add_recorded_rates", "add_recorded_totals", "answer", "begin", "by_condition", "comparison", "curves_of",
-           "draw_means", "errata", "final_levels", "found", "judge", "judge_papers", "listed", "mark_levels", "number",
-           "papers_conditions", "save", "scientific", "source", "table", "verdicts"]
+           "draw_means", "errata", "final_levels", "found", "judge", "judge_papers", "last_levels", "listed",
+           "mark_levels", "number", "papers_conditions", "save", "scientific", "source", "table", "verdicts"]

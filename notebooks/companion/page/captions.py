@@ -4,6 +4,7 @@ A cell that draws a figure ends with `found`. Under JupyterLab the words stand b
 the end of its caption (`book/computing/cells.py`).
 """
 
+import re
 from html import escape
 
 import numpy as np
@@ -12,6 +13,8 @@ from IPython.display import HTML
 from companion.page.wording import enumerated
 from companion.thesis.measures import FINAL
 from neorl.statistics import Estimate, estimate
+
+SETTING = re.compile(r"[=≥]| \d[\d.]*$")  # in a name that a number could be taken for a part of
 
 
 def found(words, numbers=None):
@@ -24,11 +27,20 @@ def found(words, numbers=None):
 
 
 def listed(numbers):
-    """Numbers by name in words: "N3 0.10, N7 0.15 [0.12, 0.18] and all 0.63". numbers: {name: `Estimate` or number}."""
-    return enumerated(f"{name} {each if isinstance(each, Estimate) else Estimate(each, each, each)}"
-                      for name, each in numbers.items())
+    """Numbers by name in words: "N3 0.10, all 0.6 [0.5, 0.7] and r = 1: 0.7". numbers: {name: `Estimate` or number}."""
+    return enumerated(f"{name}{':' if SETTING.search(name) else ''} {as_estimate(number)}"
+                      for name, number in numbers.items())
+
+
+def as_estimate(number):
+    return number if isinstance(number, Estimate) else Estimate(number, number, number)
 
 
 def final_levels(results):
     """The reward per second in the last fifth of the runs of results by name, as `Estimate`s by name."""
     return {name: estimate(np.mean, result.rate(*FINAL)) for name, result in results.items()}
+
+
+def last_levels(curves):
+    """The means over runs of the last points of curves by name, each (runs, points), as `Estimate`s by name."""
+    return {name: estimate(np.mean, np.asarray(curve)[:, -1]) for name, curve in curves.items()}
