@@ -11,7 +11,7 @@ from companion.page import answers, counts, judging, opening, recorded, report
 from companion.page.report import CLAIMS_OF
 from companion.page.wording import table
 from companion.thesis import claims
-from companion.thesis.reading import NAMES, additions
+from companion.thesis.reading import additions
 from companion.thesis.rules_chapters import MEASURED, PAST, THEN
 from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
 from companion.thesis.verdict import FAILED
@@ -46,14 +46,13 @@ def judge(ran, reading, moved, costs):
 
 
 def answer():
-    """What carries the conclusions, and how much of it is reproduced, as HTML: the recorded answer of the page."""
-    carried = []
+    """What agents do when their desires change, and how many claims that carry the conclusions hold, as HTML."""
+    found, carried = of_reading("calibrated"), []
     for name, names in CARRYING.items():
-        numbers = [f"{counts.reproduced(of_reading(reading), names)[0]} {NAMES[reading]}" for reading in report.PART_OF]
-        carried.append(f"of the {len(names)} claims that carry the conclusion on {name.lower()}, "
-                       f"{' and '.join(numbers)} are reproduced")
-    rest = {"Of this chapter too": [name for name in (*OWN, *REQUIREMENTS) if name not in sum(CARRYING.values(), ())]}
+        held, _ = counts.reproduced(found, names)
+        carried.append(f"of the {len(names)} claims that carry the conclusion on {name.lower()}, {held} hold")
     carried = "; ".join(carried)
+    rest = {"Of this chapter too": [name for name in (*OWN, *REQUIREMENTS) if name not in sum(CARRYING.values(), ())]}
     return recorded.shown(f"{answers.answer('chapter_5')} {carried[0].upper()}{carried[1:]}.", CARRYING | rest)
 
 

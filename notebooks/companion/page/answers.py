@@ -4,7 +4,7 @@ import re
 import tomllib
 from importlib import resources
 
-from companion.page import behind, report
+from companion.page import behind, counts, report
 from companion.page.wording import in_words
 from companion.thesis.pins import PINS
 from companion.thesis.priors import WITHIN
@@ -35,6 +35,9 @@ def _number(name, what, form):
 def _found(name, what):
     if name == "choices":
         return choices()[what]
+    if name == "searched":
+        hold, of_all = counts.reproduced(report.record()["claims"], report.record()["shares"])
+        return {"hold": hold, "claims": of_all}[what]
     if name in ("early", "final", "whole"):
         runs = behind.recorded_runs("calibrated", what)
         return runs.curve[:, 0] if name == "early" else getattr(runs, name)
