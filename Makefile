@@ -87,7 +87,7 @@ $(CHAPTERS)/.parameters: FORCE
 	@echo "$(RUNS) $(STEPS) $(READING)" | cmp -s - $@ || echo "$(RUNS) $(STEPS) $(READING)" > $@
 
 $(CHAPTERS)/claims-table.md: $(call page,$(TOGETHER) $(filter $(NAMES),$(TIMED) $(CONCLUSION))) $(wildcard book/*/*.py) \
-    $(wildcard book/*.toml book/star.* book/rules_before.*) book/_toc.yml
+    $(wildcard book/*.toml book/star.* book/game.* book/rules_before.*) book/_toc.yml
 	@$(BIN)/python book/writing/tables.py
 
 # Readers of the last book have it until the next is complete.

@@ -311,4 +311,5 @@ async function dataOf(script) {
   return { ...data, _wasm: { plane: bytes(data.wasm) } };
 }
 
-new Star(document.querySelector(".neorl-star"), await dataOf(document.querySelector(".star-data")));
+const data = await dataOf(document.querySelector(".star-data"));
+new Star(document.querySelector(".neorl-star"), data);

@@ -7,23 +7,18 @@
 3. The page (`star.js`) runs them in the reader's browser; `experienced` and `with_star` are the same runs in Python.
 """
 
-import gzip
-import json
-from base64 import b64encode
 from dataclasses import replace
 from html import escape
 from pathlib import Path
 
 import neorl
-from neorl.browser import wasm
-from neorl.browser.explorer import parameters_in_page, text_of, world_in_page
+from neorl.browser.explorer import parameters_in_page, world_in_page
 
 AGENT, TANK = neorl.multimodal(), neorl.WaterWorld()
 SEED = 19  # the distances of both agents to the star, on the page and in the picture, are near the medians of 24 seeds
 LESSON = 100 * 60 * TANK.fps  # steps
 VALENCE = 2.0  # of the star; green creeps have 1, red ones −1
 START = (0.8, 0.2)  # of the star
-SCRIPTS = ("simulator.js", "drawing.js", "movers.js", "settings.js")
 BOOK = Path(__file__).parents[1]
 TITLE = "A tank with an agent, and green and red discs; the path of the agent ends at a star."
 
@@ -44,16 +39,13 @@ def experienced(place=START, lesson=LESSON):
     return run
 
 
-def page(lesson=LESSON):
-    """The star's part of a page, as HTML: styles, a picture for readers without scripts, and all that runs it."""
-    data = {"_engine": neorl.Explorer._engine.default_value, "_layout": {"plane": wasm.layout("plane")},
-            "lesson": lesson, "seed": SEED, "valence": VALENCE, "star": dict(zip("xy", START)),
-            "wasm": b64encode(wasm.modules()["plane"]).decode(), "parameters": parameters_in_page(AGENT, TANK),
-            "world": world_in_page(TANK),
+def data(lesson=LESSON):
+    """What the page needs of the star, ready for JSON."""
+    return {"lesson": lesson, "seed": SEED, "valence": VALENCE, "star": dict(zip("xy", START)),
+            "parameters": parameters_in_page(AGENT, TANK), "world": world_in_page(TANK),
             "red": [e for e, desire in enumerate(AGENT.desires) if desire.source == "red"]}
-    content = b64encode(gzip.compress(json.dumps(data).encode(), mtime=0)).decode()
-    script = "\n".join([text_of(*SCRIPTS), (BOOK / "star.js").read_text(encoding="utf-8")])
-    markup = (BOOK / "star.html").read_text(encoding="utf-8").replace("{title}", escape(TITLE))
-    return (f'<style>{text_of("widget.css")}</style>\n{markup}'
-            f'<script type="text/plain" class="star-data">{content}</script>\n'
-            f'<script type="module">{script}</script>\n')
+
+
+def markup():
+    """The star's part of the page, as HTML, with a picture for readers without scripts."""
+    return (BOOK / "star.html").read_text(encoding="utf-8").replace("{title}", escape(TITLE))

@@ -1,18 +1,18 @@
 """Write what the book's other pages include of the computed ones: claims, rules, errata, contents in pictures, and
-the star."""
+the living part of the front page."""
 
 from companion.page import report
 from computing.compute import CHAPTERS, ROOT
 
 from neorl.common.files import write_whole
-from writing import contents, ledger, rules, star
+from writing import contents, front, ledger, rules
 
 
 def pages(chapters):
     """The texts to include, {name of the file: text}. chapters: the folder of the computed pages."""
     record, toc = report.record(), (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
     return {"claims-rules.md": rules.page(record), "claims-front.html": ledger.front(record),
-            "star.html": star.page(), "errata-table.md": report.errata(),
+            "star.html": front.page(), "errata-table.md": report.errata(),
             "contents.md": contents.pictures(toc, chapters), "claims-table.md": ledger.page(record)}
 
 

@@ -228,6 +228,22 @@ function stepSecond(action) {
   return call("step_second", { board: run.world_state, rules: run.rules.waterworld, action });
 }
 
+/** Take a reader's actions in place of the agent's, one a step. */
+function steer({ actions }) {
+  for (const action of actions.slice(0, run.steps - run.step)) {
+    if (run.changes[0]?.step === run.step) become(run.changes.shift().parameters);
+    const { world: { kinds }, log: { paid, rewards, hits, bin_steps: steps } } = run;
+    const bin = Math.floor(run.step / Number(steps));
+    const reward = call("step_alone", { board: run.world_state, rules: run.rules.waterworld, action });
+    paid[0] += reward;
+    rewards[bin] += reward;
+    for (const met of run.scene.met) if (met > 0) hits[kinds.length * bin + Number(met) - 1] += 1;
+    run.step += 1;
+    leaveTrail();
+  }
+  return frame();
+}
+
 function drag({ creep, x, y }) {
   const { width, radius } = run.rules.waterworld;
   const inside = [x, y].map((each) => Math.min(width - radius, Math.max(radius, each * width)));
@@ -343,6 +359,7 @@ const REQUESTS = {
   advance,
   extend,
   play,
+  steer,
   drag,
 };
 

@@ -1,4 +1,4 @@
-"""Kernels for viewers: probe the values of an agent anywhere, and add a second player to WaterWorld."""
+"""Kernels for viewers: probe the values of an agent anywhere, and let a reader play in WaterWorld, beside it or alone."""
 
 from neorl.core import loop
 from neorl.core.choices import MapState, Vector
@@ -8,7 +8,7 @@ from neorl.core.layout import Memory, Record
 from neorl.core.scene import HALF_SECOND, Scene
 from neorl.kernels.annotations import array
 from neorl.kernels.kernel import kernel
-from neorl.worlds.waterworld import Rules, WaterWorldState, move_agent, reset, touch_creeps
+from neorl.worlds.waterworld import Rules, WaterWorldState, move_agent, reset, step, touch_creeps
 
 
 @kernel
@@ -65,4 +65,13 @@ def step_second(agent: Record, memory: Memory, scene: Scene, functions: AgentFun
         reset(board, rules)
         if agent.notices_resets:
             loop.begin(agent, memory, scene, functions)
+    return reward
+
+
+@kernel
+def step_alone(board: WaterWorldState, rules: Rules, action: int) -> float:
+    """Take an action of a reader who is alone on a board, and return its reward. ``scene.met`` says what was met."""
+    reward, done = step(board, rules, action)
+    if done:
+        reset(board, rules)
     return reward

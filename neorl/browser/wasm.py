@@ -50,7 +50,7 @@ from neorl.experiments.condition import PARTS, source_digest
 from neorl.kernels.annotations import Record, fields, is_tuple
 from neorl.kernels.identity import can_cache, digest_of_source
 from neorl.worlds import arena, arm, vessel, water_maze, waterworld
-from neorl.browser.probe import cell_seen_at, step_second, survey
+from neorl.browser.probe import cell_seen_at, step_alone, step_second, survey
 from neorl.worlds.rollout import Log, rollout_in
 from neorl.worlds.vessel import Vessel
 from neorl.worlds.waterworld import WaterWorld, WaterWorldState
@@ -67,12 +67,12 @@ class Module(NamedTuple):
     tuples: tuple
 
 
-def _module(dynamics, agent, world, with_second):
+def _module(dynamics, agent, world, with_players):
     exports = (start_stream, derive, begin_values, dynamics.reset, loop.begin, rollout_in(dynamics), survey,
                cell_seen_at)
     tuples = Memory, fields(dynamics.reset)["state"], fields(dynamics.reset)["rules"], Log
-    if with_second:
-        exports, tuples = (*exports, step_second), (*tuples, WaterWorldState)
+    if with_players:
+        exports, tuples = (*exports, step_second, step_alone), (*tuples, WaterWorldState)
     record = agent_type(len(world.actions.names), world.actions.axes, ROWS)
     return Module(dynamics, loop_of(agent, whole=True), record, exports, tuples)
 

@@ -294,6 +294,25 @@ def test_a_second_agent_obeys_commands_on_the_same_creeps(ask, object_state):
     assert [frame["agent"][name] for name in "xy"] == pytest.approx(run.world_state.scene.position / TANK.width)
 
 
+def test_a_reader_acts_in_place_of_the_agent_on_the_board_of_its_run(ask):
+    actions, later = np.random.default_rng(0).integers(0, 5, 900).tolist(), replace(AGENT, desires=AGENT.desires[:1])
+    frame = ask({"type": "steer", "actions": actions[:700]}, {"type": "steer", "actions": actions[700:]},
+                changes=[{"step": 450, "parameters": parameters_in_page(later, TANK)}])[-1]
+    state = Run(AGENT, TANK, SEED, K).world_state
+    paid, met = 0.0, np.zeros(2)
+    for action in actions:
+        reward, done = execute(TANK.dynamics.step, state, TANK.rules, action)
+        paid += reward
+        for kind in state.scene.met[state.scene.met > 0] - 1:
+            met[kind] += 1
+        if done:
+            execute(TANK.dynamics.reset, state, TANK.rules)
+    assert met.all() and [sum(each["counts"]) for each in frame["hits"]] == [*met]
+    assert frame["step"] == 900 and frame["reward"] == paid == sum(frame["rewards"])
+    assert [frame["agent"][name] for name in "xy"] == pytest.approx(state.scene.position / TANK.width)
+    assert len(frame["wants"]) == len([each for each in later.desires if each.source in TANK.kinds])
+
+
 def test_a_place_is_found_in_the_cell_that_it_lies_in(ask):
     places = [(0.1, 0.9), (0.55, 0.3), (0.99, 0.01)]
     found = ask(*({"type": "look", "map": name, "goal": None, "at": {"x": x, "y": y}}

@@ -11,7 +11,7 @@ from neorl.core.coordinates import sense, tune
 from neorl.core.modality import OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
 from neorl.kernels.annotations import mapped
 from neorl.kernels.execution import execute
-from neorl.browser.probe import cell_seen_at, step_second, survey
+from neorl.browser.probe import cell_seen_at, step_alone, step_second, survey
 from neorl.worlds.waterworld import GREEN, RED
 
 TANK = WaterWorld(n_creeps=5)
@@ -92,3 +92,14 @@ def test_when_somebody_else_takes_the_last_green_creep_the_tank_starts_afresh(re
             break
     assert np.array_equal(board.scene.position, [125.0, 125.0]) and board.scene.kinds[0] == GREEN and paid == 1
     assert run.memory.events.any() == (resets == "unnoticed")
+
+
+def test_a_reader_who_is_alone_on_a_board_meets_what_an_agent_would_meet():
+    state, other = TANK.reset(6), TANK.reset(6)
+    for action in np.random.default_rng(0).integers(5, size=2_000).tolist():
+        paid = execute(step_alone, state, TANK.rules, action)
+        expected, done = execute(TANK.dynamics.step, other, TANK.rules, action)
+        if done:
+            execute(TANK.dynamics.reset, other, TANK.rules)
+        assert paid == expected and np.array_equal(state.scene.met, other.scene.met)
+    assert np.array_equal(state.scene.position, other.scene.position)

@@ -6,7 +6,7 @@ from functools import partial
 from io import BytesIO
 from pathlib import Path
 
-from writing import moving
+from writing import front, moving
 import neorl
 import numpy as np
 import pytest
@@ -35,7 +35,7 @@ def folder(tmp_path_factory):
     for name in ("book.css", "star.png"):
         (folder / "_static").mkdir(exist_ok=True)
         (folder / "_static" / name).write_bytes((ROOT / "book" / "vendor" / name).read_bytes())
-    page = star.page().replace("const SPEED = 2;", "const SPEED = 20;")  # so that tests wait less
+    page = front.page().replace("const SPEED = 2;", "const SPEED = 20;")  # so that tests wait less
     assert "const SPEED = 20;" in page
     (folder / "index.html").write_text(
         '<!doctype html><html lang="en"><meta charset="utf-8"><title>Star</title><link rel="icon" href="data:,">'
@@ -164,7 +164,7 @@ def test_nothing_shifts_and_readers_without_scripts_have_a_picture_and_a_sentenc
     assert silent.locator(".still").is_visible() and silent.locator("noscript p").is_visible()
     assert silent.locator(".still").bounding_box() == page.locator(".tank canvas").bounding_box()
     page.emulate_media(media="print")
-    assert page.locator(".still").is_visible() and not page.locator(".buttons").is_visible()
+    assert page.locator(".still").is_visible() and not page.locator(".neorl-star .buttons").is_visible()
 
 
 def test_the_star_can_be_moved_while_the_agent_learns(open_page, folder):
