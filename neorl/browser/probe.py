@@ -1,4 +1,4 @@
-"""Kernels for viewers: probe the values of an agent anywhere, and let a reader play in WaterWorld, beside it or alone."""
+"""Kernels for viewers: probe an agent's values anywhere, and let a reader play in WaterWorld, beside it or alone."""
 
 from neorl.core import loop
 from neorl.core.choices import MapState, Vector

@@ -18,7 +18,7 @@ explorer = Explorer(Condition(agent, tank, 500, 2))"""
 FIGURES = {"explorer": "An Explorer that runs PC N3, in JupyterLab or a page with JavaScript.",
            "Explorer('Arm of two links')": "An Explorer that runs Arm of two links, in JupyterLab or a page with",
            "Replay([record('a <b>', Run(agent, tank), 50)])": "A replay of 1 second of a &lt;b&gt;.",
-           "Changes(Run(agent, tank), 500)": " changes of cell of a run, on a board of 3 × 3 cells, from",
+           "Changes(Run(agent, tank), 500)": " in all, on a board of 3 × 3 cells, from",
            "Turn(*[Condition(agent, tank, 500, 1, 0, ((250, agent),))] * 2)": "An agent that avoids red creeps for a w"}
 END = "explorer.show(simulate(agent, tank, steps=500, runs=2, progress=False))"
 

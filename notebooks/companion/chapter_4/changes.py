@@ -40,8 +40,9 @@ class Changes(Figure):
                                "discount": rule.discount})
 
     def _sentence(self):
-        return (f"The {len(self._run['changes'])} changes of cell of a run, on a board of {self._run['side']} × "
-                f"{self._run['side']} cells, from each of which the agent learns.")
+        number, side = len(self._run["changes"]), self._run["side"]
+        return (f"The changes of cell in a run, {number} in all, on a board of {side} × {side} cells, from each of "
+                "which the agent learns.")
 
     def _drawn(self):
         side = self._run["side"]

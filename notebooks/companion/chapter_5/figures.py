@@ -3,8 +3,10 @@
 import numpy as np
 from matplotlib import pyplot as plt
 
+from companion import page
 from companion.chapter_5.trials import SECONDS_A_MOVE
 from companion.page.thesis_figures import draw_against_thesis, mark_levels
+from companion.thesis.rules_chapters import MINUTES
 from neorl.drawing.curves import draw_curves
 from neorl.drawing.style import CURVES, INK, name_ends
 
@@ -27,13 +29,18 @@ def draw_costs(costs):
 def draw_revaluing(turned, chance):
     """Draw discs caught per minute from 10 minutes before red is wanted too, marked by a line, to 40 minutes after it.
 
-    turned: {name: `Result`}, of runs that change at half-time. chance: what Brownian motion catches per minute.
+    turned: {name: `Result`}, of runs that change at half-time, the first of which the record has. chance: what Brownian
+    motion catches per minute.
     """
     minutes, curves = caught_around(turned)
     axes = draw_curves(minutes, curves, "simulated minutes since red discs are wanted, too", "discs caught per minute")
     axes.set_xlim(minutes[0], minutes[-1])
     mark_levels(axes, {"Brownian motion": chance})
     axes.axvline(0, color=INK, linewidth=0.7)
+    first = next(iter(turned.values()))
+    middles = {f"caught a minute, {when}": (np.mean(shares) - 0.5) * first.seconds / 60
+               for when, shares in MINUTES.items()}
+    page.add_recorded_points(axes, {name: at for name, at in middles.items() if at < minutes[-1]}, first, "T1")
 
 
 def caught_around(turned):

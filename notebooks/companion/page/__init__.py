@@ -5,8 +5,8 @@ judge the claims about what was run, `verdicts` shows these beside the record, a
 numbers, tables and parts of figures.
 """
 
-from companion.page.behind import (add_recorded_levels, add_recorded_numbers, add_recorded_rates,
-                                   add_recorded_totals, curves_of)
+from companion.page.behind import (add_recorded_levels, add_recorded_numbers, add_recorded_points,
+                                   add_recorded_rates, add_recorded_totals, curves_of)
 from companion.page.beginning import begin, listed, source
 from companion.page.captions import final_levels, found, last_levels
 from companion.page.judging import by_condition, judge, judge_papers, papers_conditions
@@ -17,6 +17,7 @@ from companion.page.thesis_figures import mark_levels
 from companion.page.wording import number, scientific, table
 
 __all__ = ["UNDER_WHITE", "add_arrow", "add_curves", "add_recorded_levels", "add_recorded_numbers",
-           "add_recorded_rates", "add_recorded_totals", "answer", "begin", "by_condition", "comparison", "curves_of",
-           "draw_means", "errata", "final_levels", "found", "judge", "judge_papers", "last_levels", "listed",
-           "mark_levels", "number", "papers_conditions", "save", "scientific", "source", "table", "verdicts"]
+           "add_recorded_points", "add_recorded_rates", "add_recorded_totals", "answer", "begin", "by_condition",
+           "comparison", "curves_of", "draw_means", "errata", "final_levels", "found", "judge", "judge_papers",
+           "last_levels", "listed", "mark_levels", "number", "papers_conditions", "save", "scientific", "source",
+           "table", "verdicts"]

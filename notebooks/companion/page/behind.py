@@ -123,6 +123,18 @@ def add_recorded_numbers(axes, results, claim, what):
                                                    for name, number in numbers.items()}, [found["runs"]])
 
 
+def add_recorded_points(axes, points, result, claim):
+    """Draw numbers of a recorded claim behind the curve of a `Result` of few runs, and return the axes.
+
+    points: {name of the number: where on the axis}. Nothing is drawn unless the record has the result's condition.
+    """
+    found = report.record()["claims"][claim]
+    if result.runs >= FEWEST_RUNS or not recorded(result):
+        return axes
+    numbers = {name: report.estimate_of(found["numbers"][name][0]) for name in points}
+    return _add_levels(axes, [*points.values()], numbers, [found["runs"]])
+
+
 def _add_levels(axes, xs, estimates, runs):
     rows, reached = isinstance(xs, range), []
     for at, estimate in zip(xs, estimates.values()):
