@@ -27,7 +27,7 @@ from neorl.common.version import VERSION
 from neorl.experiments.condition import source_digest
 
 SHIPPED = Path(__file__).with_name("lessons.csv")
-RUNS, SEED = 50, 761_000
+RUNS, SEED = 24, 761_000
 MINUTES, SHORT = 100, 10  # of a stream, and of its beginning and its end
 PLACE = Place(0.3, 0.3)
 WANTED = ("nothing", "green, fearing red", "green", "both", "a place")
