@@ -46,14 +46,31 @@ def wanting_place(agent, place):
 
 
 def knowledge(learned, k, minutes=MINUTES):
-    """What a run has learned of discs, in the tank of run k: `Knowledge`."""
-    agent, world = learned.agent, learned.world
-    creeps = replace(agent, desires=[Desire(kind, node.name, 1.0) for node in agent.nodes for kind in world.kinds])
-    steps = round(60 * minutes * world.fps)
-    both = _frozen(learned, wanting(creeps, 1.0, 1.0), k).record(steps, every=steps).hits
-    papers = _frozen(learned, wanting(creeps, 1.0, -1.0), k).record(steps, every=steps).rewards
-    return Knowledge(both.sum() / minutes, papers.sum() / (60 * minutes), _seconds_to_places(learned, k),
+    """What a run has learned, measured in the tank of run k: `Knowledge`."""
+    earned = _minutes_of(told(learned, 1.0, -1.0, k), minutes).rewards.sum() / (60 * minutes)
+    return Knowledge(caught(learned, k, minutes), earned, _seconds_to_places(learned, k),
                      *(pointing(learned, n) for n in range(2)))
+
+
+def caught(learned, k, minutes=MINUTES):
+    """The discs of both colours that an agent catches a minute, if it wants both and learns no more."""
+    return _minutes_of(told(learned, 1.0, 1.0, k), minutes).hits.sum() / minutes
+
+
+def told(learned, green, red, k=0):
+    """The run of an agent that has learned the same, learns no more, and desires discs alone, without exploration.
+
+    green, red: the valence of either, in each of its nodes.
+    """
+    agent = learned.agent
+    return _frozen(learned, replace(agent, policy=replace(agent.policy, exploration=0.0), desires=[
+        Desire(kind, node.name, valence) for node in agent.nodes for kind, valence in (("green", green), ("red", red))
+    ]), k)
+
+
+def _minutes_of(run, minutes):
+    steps = round(60 * minutes * run.world.fps)
+    return run.record(steps, every=steps)
 
 
 def _frozen(learned, agent, k):
