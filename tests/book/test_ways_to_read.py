@@ -41,7 +41,7 @@ OTHERS = {
     "paper_a": {"resolutions": [4, 12], "layers": [2, 3, 5, 7], "n_creeps": 20},
     "paper_b": {"resolutions": [3, 4], "n_creeps": 8, "place_gain": 100.0},
     "paper_c": {"n_creeps": 8, "recursion": 2.5, "resolutions": [3, 4]},
-    "performance": {"steps": 3_000}, "recordings": {"resolutions": [11, 23]},
+    "performance": {"steps": 3_000}, "recordings": {"resolutions": [11, 23]}, "wanted": {"reading": "letter"},
     "your_research": {"resolutions": [2, 20]}}
 WAYS = "defaults", "twice", "below", "least", "others", "papermill", "suggested", "refused"
 MEASURED = {  # the cells that show measured times

@@ -15,6 +15,7 @@ from companion.thesis.reading import additions
 from companion.thesis.rules_chapters import MEASURED, PAST, THEN
 from companion.thesis.statements import AGENTS, CLAIMS, STATEMENTS
 from companion.thesis.verdict import FAILED
+from companion.wanted import findings
 
 SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "A9", "A11", "B1", "B2", "B3", "B4", "B6", "T6", "T12")
 SEPARATION = ("T1", "T7", "T10", "T11", "C1", "C2", "C3", "C4", "C6")
@@ -62,13 +63,17 @@ def all_claims():
 
 
 def pasts(reading):
-    """What agents get of what they desire, by what they had desired while they learned, as recorded, in Markdown."""
+    """What agents get of what they desire, by what they had desired while they learned, as recorded, in Markdown.
+
+    Below it, what yoked agents tell of why.
+    """
     record = report.record()[report.PART_OF[reading]]["T11"]
     measures = [f"{MEASURED[then]}, {THEN[then]}" for then in THEN]
     rows = [[past.capitalize(), *(report.number({"here": record["numbers"][f"{measure}, {past}"][0]})
                                   for measure in measures)] for past in PAST.values()]
     heads = [f"{measure[0].upper()}{measure[1:]}" for measure in measures]
-    return f"{table(['While learning', *heads], rows)}\n\nFrom the record, {record['runs']} runs of each."
+    return (f"{table(['While learning', *heads], rows)}\n\nFrom the record, {record['runs']} runs of each. "
+            f"{findings.in_chapter_5(reading)}")
 
 
 def of_reading(reading):

@@ -27,7 +27,7 @@ from neorl.statistics import Estimate
 STYLE = resources.files(__package__) / "recorded.css"
 SHOWN = report.CLAIMS_OF | {  # of pages that judge none
     "beyond_agents": ("C5",), "calibration": (*report.record()["shares"],), "chapter_1": ("T1",),
-    "performance": ("T2", "T5")}
+    "performance": ("T2", "T5"), "wanted": ("T10", "T11")}
 EDGES = 100 / 3, 200 / 3  # of the band, in percent of a line
 FARTHEST = 28.0, 60.0  # percent between the only edge of a band and the farthest number, outside and inside
 PLACES = {True: "inside", None: "across the edge", False: "outside"}

@@ -3,7 +3,7 @@
 1. A *stream* is what an agent of paper B with both modalities does in 100 simulated minutes of learning, with one of
    `WANTED` as its desire. Its *own* lesson is what it has learned itself.
 2. The other `LESSONS` are those of partners that learn from the same stream, scene by scene and action by action
-   (`companion.wanted.yoked`), or of the agent at another time. `companion.wanted.predictions` says why each.
+   (`companion.wanted.yoked`), or of the agent at another time. `predictions.toml` beside this file says why each.
 3. Run k of a reading begins in the same tank whatever is desired, and random motion of a reading is one stream, which
    the lessons of the others refer to. *Untrained* agents are the measure of chance.
 

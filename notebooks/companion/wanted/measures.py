@@ -134,7 +134,7 @@ class Stream(NamedTuple):
 
 
 def stream_of(path, agent, world):
-    """What a `neorl.Trajectory` with a frame for each step covers: `Stream`."""
+    """What a `neorl.experiments.run.Trajectory` with a frame for each step covers: `Stream`."""
     finest = max(agent.nodes[0].maps, key=lambda nres: nres.resolution)
     cells, n_actions = finest.encode(path.positions[:-1] / world.size), len(world.actions.names)
     reached = int(within_reach(finest, world).sum())
