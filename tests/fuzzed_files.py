@@ -18,8 +18,8 @@ from pathlib import Path
 import numpy as np
 from saved_files import contents, rewrite
 
-from neorl import (Learner, Result, Run, Scene, WaterWorld, forager, multimodal, network_d, object_vector_cells,
-                   place_cells, simulate)
+from neorl import (Contacts, Learner, Result, Run, Scene, WaterWorld, forager, multimodal, network_d,
+                   object_vector_cells, place_cells, simulate)
 from neorl.agents.spaces import pilot, reacher, swimmer
 from neorl.worlds import Arm, Vessel, WaterMaze
 
@@ -46,6 +46,7 @@ def advanced(agent, world):
 
 SOURCES = {
     "network": lambda: advanced(network_d([3, 5]), TANK), "contacts": lambda: advanced(forager([5, 9]), TANK),
+    "after-states": lambda: advanced(forager([5, 9], contacts=Contacts(efference=0.25)), TANK),
     "self": lambda: advanced(object_vector_cells([3, 5], object_state="self"), TANK),
     "objects": lambda: advanced(multimodal([3, 4], object_state="object"), TANK),
     "arm": lambda: advanced(reacher(2), Arm((0.5, 0.5))), "vessel": lambda: advanced(pilot(), Vessel()),

@@ -18,6 +18,7 @@ import numpy as np
 
 from neorl import (CARDINAL, Actions, Agent, Desire, Learner, Learning, Node, Policy, Run, Scene, World, forager,
                    kernel, network_d, simulate)
+from neorl.agents.forager import AFTER_STATES
 from neorl.custom import Axis, Modality
 from neorl.core.stream import randint
 from neorl.gym.environment import WorldEnv
@@ -147,7 +148,7 @@ OWN = Agent((Node("own", Modality("own", (Axis("position", along=1), Axis(any_pl
              Node("OVC", Modality("OV", (Axis("objects", low=-1), Axis(any_place))), [3])),
             (Desire((0.9, 0.2), "own", 1.0), Desire((0.1, 0.5), "OVC", -1.0)),
             learning=Learning(credit=any_credit, memory=3.0), policy=Policy(0.0, choose=any_action))
-AGENTS = {"own kernels": OWN, "forager": forager(), "network D": network_d()}
+AGENTS = {"own kernels": OWN, "forager": forager(), "after-states": forager(**AFTER_STATES), "network D": network_d()}
 
 
 def by_simulate(agent, world, rng):

@@ -53,7 +53,8 @@ def seeker(**choices):
     return Agent(nodes, [Desire("platform", node.name, 1.0) for node in nodes], **choices)
 
 
-CONTACTS = Contacts(0.65, 0.02, 15.0, 0.3, 0.3, 0.4, "avoidance", "highest")
+CONTACTS = Contacts(0.65, 0.02, 15.0, 0.3, 0.3, 0.4, "avoidance", 0.0)
+AFTER_STATES = Contacts(0.65, 0.02, 15.0, 0.3, 0.3, 0.4, "avoidance", 0.3, 0.25)
 
 
 def contact_network():
@@ -64,7 +65,15 @@ def contact_network():
     desires = [Desire("green", "PC", 1.0), Desire("red", "OVC", -1.0), Desire("green", "OVC", "learned"),
                Desire("PC", "OVC × V"), Desire(Place(0.2, 0.9), "OVC × V", 0.1), Desire("red", "OVC × V", "learned")]
     return Agent(nodes, desires, plain_rule(), Policy(0.05, "random"),
-                 contacts=Contacts(1.3, 0.1, 3.0, 0.1, 0.1, 1.5, "approach", "add"))
+                 contacts=Contacts(1.3, 0.1, 3.0, 0.1, 0.1, 1.5, "approach", 1.0))
+
+
+def after_state_network():
+    """After-states beside places as goals, with desires for kinds, for a place and for the desire of the places."""
+    desires = [Desire("green", "PC", 1.0), Desire("green", "OVC × V", "learned"), Desire("PC", "OVC × V"),
+               Desire(Place(0.2, 0.9), "OVC × V", 0.1), Desire("red", "OVC × V", "learned")]
+    return Agent([Node("PC", modality.PLACE_CELL, [3, 7], "cells"), *forager([5, 9]).nodes], desires, plain_rule(),
+                 Policy(0.05, "random"), contacts=AFTER_STATES)
 
 
 RULES = {
@@ -140,14 +149,18 @@ RUNS = {
                            | {"policy": Policy(0.0, choose=softmax(0.2))}), 3),
     "contacts": (forager([5, 9, 15], contacts=CONTACTS), 3),
     "contacts, network": (contact_network(), 8),
+    "after-states": (forager([4, 6, 9, 13], contacts=AFTER_STATES), 3),
+    "after-states, network": (after_state_network(), 8),
+    "after-states, resets unnoticed": (replace(forager([5, 9], contacts=AFTER_STATES), **UNNOTICED), BASIN),
 }
 CHANGES = {
     "joined by objects": ((LONG // 3, "both"),),
     "with a memory, moved": ((LONG // 3, "both, self"), (LONG // 2, "network D, calibrated")),
     "revalued and back": ((LONG // 4, "network C"), (LONG // 2, "network D"), (3 * LONG // 4, "objects")),
+    "to after-states and back": ((LONG // 3, "after-states"), (LONG // 2, "contacts"), (3 * LONG // 4, "after-states")),
 }
 BEFORE = {"joined by objects": "place N7", "with a memory, moved": "network C, calibrated",
-          "revalued and back": "network D"}
+          "revalued and back": "network D", "to after-states and back": "contacts"}
 
 
 def world_of(name):
@@ -202,7 +215,8 @@ def in_order(agent, q):
     for node in agent.nodes:
         for each in node.maps:
             contacts, of_self = node.goals == "contacts", node.state != "object"
-            one, q = np.split(q, [4 * each.cells * (3 if contacts else 1 if of_self else each.cells)])
+            events = 1 if contacts and agent.contacts.efference else 4
+            one, q = np.split(q, [events * each.cells * (3 if contacts else 1 if of_self else each.cells)])
             in_place = contacts or of_self or agent.learning.bootstrap
             yield one if in_place else one.reshape(each.cells, each.cells, 4).transpose(1, 2, 0)
 

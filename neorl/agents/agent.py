@@ -212,6 +212,10 @@ class Agent(Described, checks.Final):
             if node.state != "object" and self.learning.update_on == "step":
                 raise checks.error("update_on", f"'cell' for the node {node.name!r} with the state {node.state!r}",
                                    "step", "within a step, the self stays in the centre")
+            if node.goals == "contacts" and self.contacts.efference > 0 and not any(
+                    axis.of == "velocity" for axis in node.modality.axes):
+                raise checks.error(f"efference with the node {node.name!r}", "0, since its cells have no axis of "
+                                   "velocity, which a push would change", self.contacts.efference)
         for desire in self.desires:
             self._check_desire(desire)
         self.evaluation_order  # raises ValueError for a cycle

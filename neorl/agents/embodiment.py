@@ -69,7 +69,7 @@ def choices_in(agent, world):
         "push": np.array(actions.pushes, float), "frames": frames,
         "nodes": nodes, "order": [names.index(name) for name in agent.evaluation_order],
         "desires": [_desire(agent, world, desire, names) for desire in agent.desires],
-        "learning": _learning(agent.learning, world.fps), "contacts": _contacts(agent, world.fps),
+        "learning": _learning(agent.learning, world.fps), "contacts": _contacts(agent, world.fps, len(actions.names)),
         "policy": {"exploration": agent.policy.exploration,
                    "indifferent_is_no_op": agent.policy.when_indifferent == "no-op",
                    "is_greedy": agent.policy.choose is greedy, "last": len(actions.all_names) - 1}}
@@ -131,12 +131,13 @@ def _learning(learning, fps):
             "bootstrap": learning.bootstrap}
 
 
-def _contacts(agent, fps):
+def _contacts(agent, fps, actions):
     contacts, learns = agent.contacts, any(node.goals == "contacts" for node in agent.nodes)
     return {"discount": float(_retained(contacts.horizon * fps)), "learning_rate": contacts.learning_rate,
             "familiarity": contacts.familiarity, "first_value": contacts.first_value,
             "trace": TRACE_STEPS if learns else 1, "trace_rate": contacts.trace_rate, "caution": contacts.caution,
-            "flees": contacts.fear == "avoidance", "rivals_add": contacts.rivals == "add"}
+            "flees": contacts.fear == "avoidance", "rivals": contacts.rivals, "efference": contacts.efference,
+            "after_states": actions if learns and contacts.efference > 0 else 0}
 
 
 def _frames(actions, name):

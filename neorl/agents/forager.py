@@ -1,6 +1,7 @@
 """The agent that goes beyond the thesis, as a value of `Agent`, like those of `neorl.agents.papers`."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from neorl.agents.agent import LEARNED, Agent, Desire, Node
 from neorl.agents.papers import paper_agent
@@ -13,6 +14,12 @@ FOVEATED_CELL = Modality("foveated object-vector cell", [
     *(Axis("objects", "foveated", along) for along in (0, 1)),
     *(Axis("velocity", "component", along, -FASTEST, FASTEST) for along in (0, 1))], mirrored=True)
 
+# Values of after-states in WaterWorld, where a push adds a quarter of the board's width per second to the velocity, in
+# maps enough that some field is of the right size wherever a creep is.
+AFTER_STATES: dict[str, Any] = {
+    "resolutions": (4, 5, 6, 7, 9, 11, 13, 15, 18, 22, 26, 31),
+    "contacts": Contacts(familiarity=30.0, rivals=0.3, efference=0.25)}
+
 
 @paper_agent
 def forager(resolutions: Sequence[int] = (5, 9, 15, 25), valence_green: float | str = LEARNED,
@@ -21,6 +28,9 @@ def forager(resolutions: Sequence[int] = (5, 9, 15, 25), valence_green: float | 
 
     resolutions: increasing integers ≥ 1. valence_green, valence_red: of a creep, a number or "learned".
     contacts: how it learns, a `Contacts`. Raises ValueError for anything else.
+
+    ``forager(**AFTER_STATES)`` earns more in WaterWorld. It supposes that the agent knows what its own push does to its
+    velocity, see `Contacts.efference`.
     """
     return Agent([Node("OVC × V", FOVEATED_CELL, resolutions, goals="contacts")],
                  [Desire("green", "OVC × V", valence_green), Desire("red", "OVC × V", valence_red)], policy=GREEDY,

@@ -108,7 +108,7 @@ class Individual:
 
         float32 (cells, actions, cells), q[state, action, goal]; contiguous only if the agent bootstraps. If the state
         is the self, there is one: (1, actions, cells). For a node with contacts as goals (cells, actions, 3): approach,
-        fear, number of visits (see `neorl.core.contacts`).
+        fear, number of visits (see `neorl.core.contacts`); of after-states (cells, 1, 3).
 
         index: the map's position in `Agent.maps`. Raises ValueError if there is none.
         """

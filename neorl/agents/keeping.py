@@ -26,6 +26,7 @@ class MapKey(NamedTuple):
 
     node: str
     goals: str
+    events: str  # what each cell of contacts has values for
     state: str
     beyond: str
     map: str  # its identity, since an axis that a user has defined again is the same as long as its code is
@@ -36,7 +37,8 @@ def map_keys(agent):
     """The `MapKey` of each of an agent's maps."""
     before: Counter[Any] = Counter()
     for node, nres_map in ((node, nres_map) for node in agent.nodes for nres_map in node.maps):
-        key = MapKey(node.name, node.goals, node.state, node.beyond, identity(nres_map), 0)
+        events = "after-states" if node.goals == "contacts" and agent.contacts.efference > 0 else "actions"
+        key = MapKey(node.name, node.goals, events, node.state, node.beyond, identity(nres_map), 0)
         yield key._replace(place=before[key])
         before[key] += 1
 
@@ -49,7 +51,7 @@ def values_of(agent, record, memory, m):
     if node.state != "object":
         return values.reshape(1, cells, actions).swapaxes(1, 2)
     if node.goals == "contacts":
-        return values.reshape(cells, actions, ENTRIES)
+        return values.reshape(cells, -1, ENTRIES)
     if agent.learning.bootstrap:  # see `neorl.core.learning.Order`
         return values.reshape(cells, actions, cells)
     return values.reshape(cells, cells, actions).transpose(1, 2, 0)
@@ -116,14 +118,15 @@ def check_state(record, memory):
     _check_within("events", memory.events, MOST)
     for m in range(record["n_maps"]):
         _check_map(record["maps"][m], *(part_of(name, record, memory, m) for name in (
-            "goal_range", "tracks", "remembered", "remembered_at", "left")), len(memory.frames))
+            "goal_range", "tracks", "remembered", "remembered_at", "after", "left")), len(memory.frames))
 
 
-def _check_map(nres, goal_range, tracks, remembered, remembered_at, left, n_frames):
+def _check_map(nres, goal_range, tracks, remembered, remembered_at, after, left, n_frames):
     """Raise ValueError for what is remembered in a map, if it is not in the map."""
     cells, tracks = nres["cells"], tracks.reshape(-1)
     _check_within("goal_range", goal_range, [cells, nres["goals"]])
     _check_within("tracks.cell", tracks["cell"], cells - 1, at_least=ABSENT)
+    _check_within("after", after, cells - 1)
     _check_within("tracks.remembered", tracks["remembered"], cells if remembered.size else 0)
     _check_within("tracks.frame", tracks["frame"], n_frames - 1)
     for name in ("passed", "left"):
@@ -175,7 +178,9 @@ def _keep_part(name, old_agent, old_record, old_memory, old_m, agent, record, me
 def _remembers(agent, m):
     """What two maps' memories of how their cells were reached must have in common."""
     node, memory = [node for node in agent.nodes for _ in node.resolutions][m], agent.learning.memory
-    return None if node.goals == "contacts" else memory > 0 if node.state == "object" else memory
+    if node.goals == "contacts":
+        return agent.contacts.efference
+    return memory > 0 if node.state == "object" else memory
 
 
 def _desire_keys(agent):

@@ -78,7 +78,7 @@ AT_EVERY_STEP = {"credit": "share", "absent_decay": 0.0, "memory": 0.0, "bootstr
 class Contacts(checks.Final):
     """How nodes with contacts as their only goals learn, see `neorl.core.contacts`: beyond the thesis.
 
-    The defaults are the best values found by `notebooks/companion/beyond_agents/search.py`.
+    The defaults are the best values found by `notebooks/companion/beyond_agents/search.py`, for values of actions.
 
     horizon: seconds > 0, the time constant of discounting.
     learning_rate: α in [0, 1], the minimum; after n visits the rate is (n + 2)^(−3/4) or this, whichever is greater.
@@ -88,7 +88,13 @@ class Contacts(checks.Final):
     caution: ≥ 0, the weight of harm against the best approach.
     fear: the value used for harm: "avoidance", the value of a contact to an agent that would flee, or "approach", as
         in the superposition of the thesis (eq. 4.4).
-    rivals: of several things of positive valence, only the approach of "highest" value counts, or all "add" up.
+    rivals: in [0, 1], the weight of the approaches of all things of positive valence but the one of highest value. With
+        0 the best alone counts, with 1 all add up.
+    efference: ≥ 0, in sizes of the world per second: what a push of length 1 adds at once to the agent's velocity. The
+        agent is supposed to know it, by an efference copy. Its values are then those of after-states, which are the
+        positions of things together with its own velocity after the push that it is about to give, and all nodes with
+        contacts as goals must have an axis of velocity. 0 stands for an agent without an efference copy, whose values
+        are those of actions.
 
     Raises ValueError for anything else.
     """
@@ -100,7 +106,8 @@ class Contacts(checks.Final):
     trace_rate: Share = 0.215
     caution: NotNegative = 0.309
     fear: Annotated[str, OneOf(("avoidance", "approach"))] = "avoidance"
-    rivals: Annotated[str, OneOf(("highest", "add"))] = "highest"
+    rivals: Share = 0.0
+    efference: NotNegative = 0.0
 
     def __post_init__(self):
         checks.check_fields(self)

@@ -72,15 +72,16 @@ function copy(to, from) {
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
 /** What the maps of an agent have in common with those that can take their values. */
-function mapKeys({ names, nodes }) {
+function mapKeys({ names, nodes, contacts: { after_states: after } }) {
   return numbered(nodes.flatMap(({ learns_contacts: contacts, state, ends, axes, landmarks, resolutions }, n) =>
-    resolutions.map((cells) => JSON.stringify([names[n], contacts, state, ends, cells, axes, landmarks]))));
+    resolutions.map((cells) =>
+      JSON.stringify([names[n], contacts, contacts && after > 0, state, ends, cells, axes, landmarks]))));
 }
 
 /** What the maps of an agent remember of how their cells were reached: more than values only if it is the same. */
-function memories({ nodes, learning: { memory_retained: retained } }) {
+function memories({ nodes, learning: { memory_retained: retained }, contacts: { efference } }) {
   return nodes.flatMap((node) => node.resolutions.map(() =>
-    (node.learns_contacts ? null : isOfSelf(node) ? retained : retained > 0)));
+    (node.learns_contacts ? efference : isOfSelf(node) ? retained : retained > 0)));
 }
 
 /** Copy an old run's values of a map, and, if it remembers alike, its active cells and how they were reached. */

@@ -26,10 +26,10 @@ LISTS = {"nodes": {"map": "resolutions", "axis": "axes", "landmark": "landmarks"
 JOINED = {"points": ("desires", "point"), "elements": ("desires", "elements"), "boundary": ("axes", "boundaries"),
           "landmark": ("nodes", "landmarks"), "frames": ("choices", "frames")}
 # The sizes of what an agent learns and remembers, as products: of numbers of actions, of where the parts of its last
-# map end, and of the trace of contacts.
+# map end, and of the trace and the after-states of contacts.
 SIZES = {"values": ("end_value",), "cells": ("end_cell",), "scratch": ("actions", "end_cell"), "tracks": ("end_track",),
          "traces": ("end_trace",), "trace_weights": (2, "actions", "end_trace"), "passed": ("end_passed",),
-         "left": ("trace",)}
+         "after_states": ("after_states",), "left": ("trace",)}
 WITHOUT_VALUES = tuple(name for name, keeping in KEEPING.items() if keeping is DERIVED)
 
 
@@ -67,13 +67,14 @@ def laid_out(choices):
 def n_values(agent):
     """The number of values that an agent learns, by its record; in Python's integers, since it may be beyond int64."""
     maps = agent["maps"][: agent["n_maps"]]
-    return len(agent["push"]) * sum(map(math.prod, zip(maps["cells"].tolist(), maps["goals"].tolist())))
+    return sum(map(math.prod, zip(*(maps[name].tolist() for name in ("events", "cells", "goals")))))
 
 
 def sizes_of(agent):
     """The sizes of all that an agent learns and remembers in its `Memory`, by name, from its record."""
     last, (actions, axes) = agent["maps"][agent["n_maps"] - 1], agent["push"].shape
-    factors = dict(zip(last.dtype.names, last.item())) | {"trace": int(agent["contacts"]["trace"]), "actions": actions}
+    factors = dict(zip(last.dtype.names, last.item())) | {"actions": actions} | {
+        name: int(agent["contacts"][name]) for name in ("trace", "after_states")}
     sizes = {name: math.prod(factors.get(each, each) for each in product) for name, product in SIZES.items()}
     return sizes | {"values": n_values(agent), "actions": actions, "axes": axes}
 

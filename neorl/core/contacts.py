@@ -16,7 +16,12 @@ functions, discounted by time and learned off-policy, the same for every thing, 
    positively).
 4. Cells may be *mirrored*, that is, invariant under reflections along the axes of the world and exchanges of two axes.
    The actions of a cell are then those of the mirrored world. Each mirror image is called a *frame*.
-5. Of all things of positive worth, only the one whose approach is worth most counts. Fears add up.
+5. Of all things of positive worth, the one whose approach is worth most counts in full, and each of the others by the
+   share `rivals`. Fears add up.
+6. An agent with an *efference copy* knows what its own push adds to its velocity. Its values are then those of
+   *after-states* (Sutton and Barto 2018, section 6.8) in place of actions: of the cell in which a thing is seen once
+   the push is given. An after-state has one approach and one fear, whichever action led to it. An axis with a kernel of
+   the user's own represents the velocity before the push.
 
 `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
@@ -80,9 +85,9 @@ def seen_cells(agent, memory, node):
 
 
 @inlined_kernel
-def entry_of(agent, nres, cell, event):
+def entry_of(nres, cell, event):
     """The index in q of the values of an event in a cell of a map."""
-    return np.uint64(nres.first_value + (cell * agent.rates.shape[0] + event) * ENTRIES)
+    return np.uint64(nres.first_value + (cell * nres.events + event) * ENTRIES)
 
 
 @kernel
@@ -90,9 +95,9 @@ def blended(agent, memory, node, event, which):
     """The approach or fear of an event in the cells of agent.seen, blended over all maps of a node."""
     # V += n / (n + familiarity) (V_m − V), from the coarsest map to the finest.
     q, first = memory.q, node.first_map
-    value = np.float64(q[entry_of(agent, agent.maps[first], agent.seen[first], event) + which])
+    value = np.float64(q[entry_of(agent.maps[first], agent.seen[first], event) + which])
     for m in range(node.first_map + np.uint64(1), node.end_map):
-        entry = entry_of(agent, agent.maps[m], agent.seen[m], event)
+        entry = entry_of(agent.maps[m], agent.seen[m], event)
         visits = np.float64(q[entry + np.uint64(VISITS)])
         if visits > 0.0:
             own = np.float64(q[entry + which])
@@ -101,16 +106,37 @@ def blended(agent, memory, node, event, which):
 
 
 @inlined_kernel
-def see_track(agent, memory, node, point):
-    """Copy the cells that a point of a node is in to agent.seen; return the frame, or -1 if it is in none.
+def see_after(agent, memory, scene, user, node, point, action, from_offset):
+    """Find the cells of a point once the push of an action is given, into agent.seen."""
+    for axis in range(agent.here.shape[0]):
+        agent.efferent[axis] = agent.contacts.efference * agent.push[action, axis]
+    locate(agent, memory, scene, user, node, point, from_offset)
+    seen_cells(agent, memory, node)
+    for axis in range(agent.here.shape[0]):
+        agent.efferent[axis] = 0.0
 
-    A user may make an absent thing present between two steps.
-    """
-    t = 0
+
+@inlined_kernel
+def follow_after(agent, memory, node, point, action):
+    """Keep the cells of agent.seen as those of a point once the push of an action is given."""
+    for m in range(node.first_map, node.end_map):
+        memory.after[agent.maps[m].first_track + point, action] = agent.seen[m]
+
+
+@inlined_kernel
+def enter_after(agent, memory, node, point, action):
+    """Move the tracks of a point to the cells that they are in once the push of an action is given."""
     for m in range(node.first_map, node.end_map):
         t = agent.maps[m].first_track + point
-        agent.seen[m] = memory.tracks[t].cell
-    return memory.tracks[t].frame if memory.tracks[t].cell >= 0 else -1
+        memory.tracks[t].cell = memory.after[t, action]
+
+
+@inlined_kernel
+def see_track(agent, memory, node, point, action):
+    """Copy the cells of a point whose values are those of an action to agent.seen."""
+    for m in range(node.first_map, node.end_map):
+        t = agent.maps[m].first_track + point
+        agent.seen[m] = memory.after[t, action] if agent.contacts.after_states > 0 else memory.tracks[t].cell
 
 
 @inlined_kernel
@@ -132,6 +158,9 @@ def forget_left(agent, memory, node, point):
 def begin_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunctions, n: int, point: int) -> None:
     """Start the tracks of a point at its present place, without a history."""
     node = agent.nodes[n]
+    for action in range(agent.contacts.after_states):
+        see_after(agent, memory, scene, user, node, point, action, False)
+        follow_after(agent, memory, node, point, action)
     locate(agent, memory, scene, user, node, point, False)
     follow(agent, memory, node, point, seen_cells(agent, memory, node), scene.kinds[point] < 0)
     forget_left(agent, memory, node, point)
@@ -142,19 +171,27 @@ def observe_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunc
     """Learn, in the maps of a node, from the effect of the last step on one thing, and follow the thing."""
     node, contacts, event = agent.nodes[n], agent.contacts, agent.last_event
     first = memory.tracks[agent.maps[node.first_map].first_track + point]
-    met, absent = scene.met[point] != 0, scene.kinds[point] < 0
-    locate(agent, memory, scene, user, node, point, False)
-    frame = seen_cells(agent, memory, node)
-    if agent.learns and event < agent.rates.shape[0] and first.cell >= 0 and (met or not absent):
-        # The outcome: 1 for a contact, else γ max_a approach(s⁺, a) and γ min_a fear(s⁺, a).
-        approach, fear = 1.0, 1.0
-        if not met:
-            approach, fear = 0.0, np.inf
-            for action in range(agent.rates.shape[0]):
-                approach = max(approach, blended(agent, memory, node, action, np.uint64(APPROACH)))
-                fear = min(fear, blended(agent, memory, node, action, np.uint64(FEAR)))
-            approach, fear = contacts.discount * approach, contacts.discount * fear
-        learn_step(agent, memory, node, point, memory.frames[first.frame, event], approach, fear)
+    met, absent, of_after_states = scene.met[point] != 0, scene.kinds[point] < 0, contacts.after_states > 0
+    learns = agent.learns and event < agent.rates.shape[0] and first.cell >= 0 and (met or not absent)
+    if of_after_states and learns:
+        enter_after(agent, memory, node, point, event)
+    # The outcome: 1 for a contact, else γ max_a approach(s⁺, a) and γ min_a fear(s⁺, a).
+    frame, approach, fear = 0, 0.0, np.inf
+    if not of_after_states:
+        locate(agent, memory, scene, user, node, point, False)
+        frame = seen_cells(agent, memory, node)
+    for action in range(agent.rates.shape[0]):
+        if of_after_states:
+            see_after(agent, memory, scene, user, node, point, action, False)
+            follow_after(agent, memory, node, point, action)
+        if learns and not met:
+            valued = 0 if of_after_states else action
+            approach = max(approach, blended(agent, memory, node, valued, np.uint64(APPROACH)))
+            fear = min(fear, blended(agent, memory, node, valued, np.uint64(FEAR)))
+    if learns:
+        approach, fear = (1.0, 1.0) if met else (contacts.discount * approach, contacts.discount * fear)
+        learn_step(agent, memory, node, point, 0 if of_after_states else memory.frames[first.frame, event],
+                   approach, fear)
         if met:
             for m in range(node.first_map, node.end_map):
                 remember_back(contacts, memory, agent.maps[m].first_track + point)
@@ -172,7 +209,7 @@ def learn_step(agent, memory, node, point, event, approach, fear):
     for m in range(node.first_map, node.end_map):
         t = agent.maps[m].first_track + point
         track = memory.tracks[t]
-        entry = entry_of(agent, agent.maps[m], track.cell, event)
+        entry = entry_of(agent.maps[m], track.cell, event)
         old, old_fear = np.float64(q[entry + np.uint64(APPROACH)]), np.float64(q[entry + np.uint64(FEAR)])
         visits = np.float64(q[entry + np.uint64(VISITS)])
         if m == node.first_map:
@@ -209,7 +246,8 @@ def remember_back(contacts, memory, t):
 def evaluate_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunctions, n: int) -> None:
     """Compute the contributions of a node's desires to its Q-vector: see rule 5 of this module."""
     node, contacts, actions, axes = agent.nodes[n], agent.contacts, agent.rates.shape[0], agent.here.shape[0]
-    # Q(a) = Σ w approach(a) + caution Σ w fear(a), the first over the best thing alone unless rivals add up.
+    of_after_states = contacts.after_states > 0
+    # Q(a) = Σ w approach(a) + caution Σ w fear(a), approaches other than the best thing's times `rivals`.
     most, best = -1.0, -1
     for i in range(node.first_input, node.end_input):
         e = agent.inputs[i]
@@ -218,37 +256,46 @@ def evaluate_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFun
         for action in range(actions):
             desire.q[action] = 0.0
         worth = desire.target_valence if desire.source == Source.node else desire.worth
-        for thing in range(scene.kinds.shape[0] if desire.source == Source.kind else 1):
-            frame = -1
-            if desire.source == Source.kind:
-                if scene.kinds[thing] == desire.kind:
-                    frame = see_track(agent, memory, node, thing)
+        of_kind = desire.source == Source.kind
+        for thing in range(scene.kinds.shape[0] if of_kind else 1):
+            frame = 0
+            if of_kind:
+                first = memory.tracks[agent.maps[node.first_map].first_track + thing]
+                # A user may make an absent thing present between two steps.
+                if scene.kinds[thing] != desire.kind or first.cell < 0:
+                    continue
+                frame = first.frame
+                see_track(agent, memory, node, thing, 0)
             else:
                 for axis in range(axes):
                     agent.offset[axis] = (desire.target_at[axis] if desire.source == Source.node else
                                           desire.place[axis] - agent.here[axis])
                 locate(agent, memory, scene, user, node, 0, True)
                 frame = seen_cells(agent, memory, node)
-            if frame < 0:
-                continue
             desire.total_valence += worth
-            fears = worth < 0.0 and contacts.flees
-            adds = worth < 0.0 or contacts.rivals_add
+            which = np.uint64(FEAR) if worth < 0.0 and contacts.flees else np.uint64(APPROACH)
             highest = -1.0
             for action in range(actions):
-                value = blended(agent, memory, node, memory.frames[frame, action],
-                                np.uint64(FEAR) if fears else np.uint64(APPROACH))
-                agent.rival[action] = worth * value
-                highest = max(highest, worth * value)
-            if adds or highest > most:
-                if not adds:
-                    most = highest
-                    if best >= 0:  # the previous best no longer counts
-                        for action in range(actions):
-                            agent.desires[best].q[action] -= agent.favourite[action]
-                    best = e
+                valued = 0
+                if not of_after_states:
+                    valued = memory.frames[frame, action]
+                elif of_kind:
+                    see_track(agent, memory, node, thing, action)
+                else:
+                    see_after(agent, memory, scene, user, node, 0, action, True)
+                agent.rival[action] = worth * blended(agent, memory, node, valued, which)
+                highest = max(highest, agent.rival[action])
+            if worth < 0.0:
                 for action in range(actions):
-                    value = agent.rival[action] if worth > 0.0 else contacts.caution * agent.rival[action]
-                    desire.q[action] += value
-                    if not adds:
-                        agent.favourite[action] = value
+                    desire.q[action] += contacts.caution * agent.rival[action]
+            elif highest > most:
+                if best >= 0:  # the previous best counts as a rival from now on
+                    for action in range(actions):
+                        agent.desires[best].q[action] -= (1.0 - contacts.rivals) * agent.favourite[action]
+                most, best = highest, e
+                for action in range(actions):
+                    desire.q[action] += agent.rival[action]
+                    agent.favourite[action] = agent.rival[action]
+            elif contacts.rivals > 0.0:
+                for action in range(actions):
+                    desire.q[action] += contacts.rivals * agent.rival[action]

@@ -38,12 +38,13 @@ def derive(agent: Record, memory: Memory, n_things: int) -> None:
                 nres.weight *= nres.resolution
             total += nres.weight
             nres.goals = ENTRIES if node.learns_contacts else 1 if of_self else nres.cells
+            nres.events = 1 if node.learns_contacts and agent.contacts.after_states > 0 else agent.rates.shape[0]
             remembers = not node.learns_contacts and (of_self or agent.learning.memory_retained > 0)
             nres.passed = most_passed(agent.learning.memory_retained) if of_self else 0
             nres.first_value, nres.first_cell, nres.first_track = value, cell, t
             nres.first_trace, nres.first_passed = trace, passed
             cut += int(node.axes)
-            value += agent.rates.shape[0] * nres.cells * nres.goals
+            value += nres.events * nres.cells * nres.goals
             cell += nres.cells
             t += node.points
             trace += node.points * nres.cells if remembers else 0

@@ -30,7 +30,7 @@ def component(agent, memory, scene, node, vector, point, axis):
     if vector == Vector.position:
         return own
     if vector == Vector.velocity:
-        return scene.velocity[axis] / agent.size
+        return scene.velocity[axis] / agent.size + agent.efferent[axis]
     if vector == Vector.objects:
         return scene.things[point, axis] / agent.size - own
     if vector == Vector.landmarks:

@@ -61,6 +61,7 @@ MAP = record_of(
     # derived
     ("cells", INT),
     ("placed", INT),  # number of cells along the axes on which a contact determines the place
+    ("events", INT),  # that a cell has values for: all actions, or 1 if it is of after-states
     ("goals", INT),  # that a cell has values for: all cells, or 1 if a cell is itself a goal
     ("contact", INT),  # the first cell at distance 0
     ("followed", INT),  # number of cells along the axes of the vector that the node follows
@@ -101,7 +102,8 @@ CONTACTS = record_of(  # see `neorl.agents.rules.Contacts`
     ("discount", REAL),  # per step
     ("learning_rate", REAL), ("familiarity", REAL), ("first_value", REAL),
     ("trace", INT),  # steps back over which a contact is credited
-    ("trace_rate", REAL), ("caution", REAL), ("flees", FLAG), ("rivals_add", FLAG))
+    ("trace_rate", REAL), ("caution", REAL), ("flees", FLAG), ("rivals", REAL), ("efference", REAL),
+    ("after_states", INT))  # that a track follows: one for each action, or 0 if values are of actions
 POLICY = record_of(  # see `neorl.agents.rules.Policy`
     ("exploration", REAL), ("indifferent_is_no_op", FLAG),
     ("is_greedy", FLAG),  # the usual policy, which is compiled into the kernels instead of being called
@@ -159,6 +161,7 @@ def agent_type(actions, axes, rows):
         # working memory
         ("rates", SINGLE, actions),  # of the events in the cell that a track leaves
         ("here", REAL, axes),  # where the agent is, in units of the world's size
+        ("efferent", REAL, axes),  # what the push in question adds to its velocity, in the same units
         ("offset", REAL, rows), ("coordinates", REAL, rows),  # of an element of interest from the agent; of a point
         ("seen", INT, rows),  # the cells of a point, for each map
         ("rival", REAL, actions), ("favourite", REAL, actions))  # what a thing, and the best, adds to action values
@@ -200,6 +203,7 @@ class Memory(NamedTuple):
     passed_at: kept(TRACKS, "float64", "passed", "axes")  # where the self has left a cell, a ring buffer for each track
     passed_rates: kept(TRACKS, "float32", "passed", "actions")  # the rates of the events until it left the next
     seen_from: kept(WORKING, "float64", "passed")  # the cell of the self as seen from each place passed
+    after: kept(TRACKS, "int64", "tracks", "after_states")  # the cell that each action leads to at once
     left: kept(PLACES, "int64", "tracks", "left")  # of the actions taken last, a ring buffer for each track
     cuts: kept(DERIVED, CUT, "cuts")  # of each map along each axis of its node
     points: kept(DERIVED, "float64", "coordinates")  # of the desires for points

@@ -9,6 +9,7 @@ import pytest
 from neorl import Agent, Contacts, Desire, Learner, Node, Scene, WaterWorld, forager
 from neorl.agents.forager import FOVEATED_CELL
 from neorl.core.contacts import APPROACH, FEAR, VISITS
+from neorl.core.modality import OBJECT_VECTOR_CELL
 from neorl.core.scene import CARDINAL, Actions
 from neorl.experiments.run import Run
 
@@ -31,6 +32,13 @@ class Restated:
 
     def seen(self, thing, velocity):
         """The cell in each map, and the mirror image of each action."""
+        if self.contacts.efference:
+            pushed = velocity + self.contacts.efference * np.array(CARDINAL.pushes)
+            return [(self.cells(thing, after)[0], 0) for after in pushed]
+        cells, actions = self.cells(thing, velocity)
+        return [(cells, action) for action in actions]
+
+    def cells(self, thing, velocity):
         candidates = []
         for each in MIRRORS:
             offset, speed = image(thing, *each), image(velocity, *each)
@@ -57,12 +65,10 @@ class Restated:
         return value
 
     def values(self, seen, which):
-        cells, actions = seen
-        return [self.blend(cells, action, which) for action in actions]
+        return [self.blend(cells, event, which) for cells, event in seen]
 
     def learn(self, thing, seen_before, action, seen_now, met):
-        cells, actions = seen_before
-        action = actions[action]
+        cells, action = seen_before[action]
         approach = 1.0 if met else self.discount * max(self.values(seen_now, APPROACH))
         fear = 1.0 if met else self.discount * min(self.values(seen_now, FEAR))
         blends = [0.0, 0.0]
@@ -92,7 +98,9 @@ class Restated:
             self.ways[thing] = []
 
 
-@pytest.mark.parametrize("contacts", [Contacts(), Contacts(familiarity=0.0, trace_rate=0.0, learning_rate=0.3)])
+@pytest.mark.parametrize("contacts", [
+    Contacts(), Contacts(familiarity=0.0, trace_rate=0.0, learning_rate=0.3), Contacts(efference=0.25),
+    Contacts(efference=0.1, familiarity=30.0, trace_rate=0.5)])
 def test_the_maps_learn_as_the_rules_say(contacts):
     agent, world = forager([2, 5, 9], contacts=contacts), WaterWorld(n_creeps=8)
     run = Run(agent, world, 3)
@@ -122,6 +130,50 @@ def test_the_maps_learn_as_the_rules_say(contacts):
                     compared += 1
                     np.testing.assert_allclose(q[place, action], (approach, fear, visits), rtol=1e-5, atol=1e-6)
     assert compared > 100
+
+
+@pytest.mark.parametrize("efference", [0.0, 0.25])
+@pytest.mark.parametrize("rivals", [0.0, 0.3, 1.0])
+def test_the_best_thing_counts_in_full_and_each_other_by_its_share(efference, rivals):
+    contacts = Contacts(efference=efference, rivals=rivals)
+    run = Run(forager([2, 5], 1.0, -1.0, contacts=contacts), WaterWorld(n_creeps=8), 4)
+    run.advance(20_000)
+    run.learns = False
+    restated = Restated(contacts, (2, 5), 50)
+    for number, n in enumerate((2, 5)):
+        q = run.q(number)
+        for cell in np.ndindex(n, n, n, n):
+            for event in range(q.shape[1]):
+                restated.known[(n, *cell), event] = q[sum(each * n**axis for axis, each in enumerate(cell)), event]
+    for _ in range(200):
+        scene = run.world_state.scene
+        seen = [restated.seen((thing - scene.position) / 250, scene.velocity / 250) for thing in scene.things]
+        greens = [np.array(restated.values(seen[k], APPROACH)) for k in np.flatnonzero(scene.kinds == 0)]
+        fears = [restated.values(seen[k], FEAR) for k in np.flatnonzero(scene.kinds == 1)]
+        expected = np.zeros(4) - contacts.caution * np.sum(fears, axis=0)
+        if greens:
+            expected += (1.0 - rivals) * max(greens, key=max) + rivals * sum(greens)
+        run.advance(1)
+        np.testing.assert_allclose(run.state.action_value, expected, atol=1e-6)
+
+
+def test_two_actions_that_lead_to_one_after_state_have_one_value():
+    learner = Learner(forager([25], 1.0, contacts=Contacts(efference=0.5)), things=1, kinds=("green", "red"), seed=1)
+    begin = {"S": (1.0, 0.0), "E": (0.5, 0.5)}  # each leads to a velocity of (1, 0.5)
+    scenes = {action: Scene((0.5, 0.5), velocity, [(0.9, 0.6)], (0,)) for action, velocity in begin.items()}
+    learner.begin(scenes["S"])
+    learner.observe(Scene((0.5, 0.5), None, [(0.2, 0.2)], (0,), (1,)), 1.0, action=CARDINAL.names.index("S"))
+    for action, scene in scenes.items():
+        learner.begin(scene)
+        learner.act()
+        values = dict(zip(CARDINAL.names, learner.state.action_value))
+        assert values.pop(action) > max(values.values()) == np.float32(0.31)
+    assert learner.q(0).shape == (25**4, 1, 3) and learner.q(0)[..., VISITS].sum() == 1
+
+
+def test_cells_without_velocity_have_no_after_states():
+    with pytest.raises(ValueError, match="efference with the node 'OVC' must be 0, since its cells have no axis"):
+        Agent([Node("OVC", OBJECT_VECTOR_CELL, [4], goals="contacts")], contacts=Contacts(efference=0.25))
 
 
 def test_the_worth_of_things_is_learned_from_reward_and_unlearned():

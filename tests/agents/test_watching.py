@@ -10,14 +10,15 @@ from golden import MEMORIES, RULES, STATES, plain_rule
 from same import assert_equal
 from subprograms import printed
 
-from neorl import (CARDINAL, Agent, Desire, Learner, Node, Place, Policy, Run, Scene, WaterWorld, forager, kernel,
-                   multimodal, place_cells)
+from neorl import (CARDINAL, Agent, Contacts, Desire, Learner, Node, Place, Policy, Run, Scene, WaterWorld, forager,
+                   kernel, multimodal, place_cells)
 from neorl.core.modality import PLACE_CELL, SPEED_CELL
 from neorl.custom import Axis, Modality
 from neorl.kernels.annotations import mapped
 
 TANK, BUSY = WaterWorld(n_creeps=2), WaterWorld(n_creeps=8)
 STEPS = 1_500
+AFTER_STATES = forager([5, 9], contacts=Contacts(efference=0.25))
 
 
 @kernel
@@ -67,7 +68,7 @@ def test_watching_is_observing_step_by_step(name):
     watcher.observe(Scene((0.3, 0.3)))
 
 
-@pytest.mark.parametrize("agent", [multimodal([3, 4], policy=Policy(0.5)), forager([5, 9]), *(
+@pytest.mark.parametrize("agent", [multimodal([3, 4], policy=Policy(0.5)), forager([5, 9]), AFTER_STATES, *(
     multimodal([3, 5], **state) for state in STATES.values())])
 def test_what_a_run_did_teaches_a_learner_that_watches_its_scenes_the_same(agent):
     run = Run(agent, BUSY, seed=3)
@@ -189,7 +190,7 @@ def test_an_agent_that_only_watched_goes_where_it_is_told_to():
     assert np.abs(at - (0.9, 0.8)).max() < 0.12 and np.array_equal(learner.memory.q, knows)
 
 
-@pytest.mark.parametrize("agent", [place_cells([4]), multimodal([3, 4]), forager([5, 9]), *(
+@pytest.mark.parametrize("agent", [place_cells([4]), multimodal([3, 4]), forager([5, 9]), AFTER_STATES, *(
     multimodal([3, 5], **state) for state in STATES.values())])
 def test_an_agent_that_does_not_learn_changes_no_value_and_learns_again(agent):
     agent = replace(agent, policy=Policy(0.3))

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from neorl import Explorer, Learning, Node, NresMap, Run, WaterWorld, forager, network_d, place_cells, simulate
+from neorl import (Contacts, Explorer, Learning, Node, NresMap, Run, WaterWorld, forager, network_d, place_cells,
+                   simulate)
 from neorl.worlds import Arena
 from neorl.browser import wasm
 from neorl.browser.explorer import OTHER_SPACES, parameters_in_page, world_in_page
@@ -228,14 +229,19 @@ def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
 
 
 HUNTER = forager([5, 9], valence_green=1.0, valence_red=-1.0)
+AFTER_STATES = replace(HUNTER, contacts=Contacts(efference=0.25, rivals=0.3))
 MORE = Node("PC", PLACE_CELL, [4])
 
 
-@pytest.mark.parametrize("later", [HUNTER, replace(HUNTER, nodes=[MORE, *HUNTER.nodes])], ids=["same", "moved"])
-def test_contacts_on_the_way_of_a_change_are_credited_as_in_python(ask, later):
+@pytest.mark.parametrize("first, later", [
+    (HUNTER, HUNTER), (HUNTER, replace(HUNTER, nodes=[MORE, *HUNTER.nodes])), (HUNTER, AFTER_STATES),
+    (AFTER_STATES, AFTER_STATES), (AFTER_STATES, replace(AFTER_STATES, nodes=[MORE, *HUNTER.nodes])),
+    (AFTER_STATES, replace(AFTER_STATES, contacts=Contacts(efference=0.2)))],
+    ids=["same", "moved", "to after-states", "same after-states", "after-states moved", "another push"])
+def test_contacts_on_the_way_of_a_change_are_credited_as_in_python(ask, first, later):
     change = {"type": "change", "parameters": parameters_in_page(later, TANK)}
-    *_, frame = ask(advance(STEPS), change, advance(STEPS), parameters=parameters_in_page(HUNTER, TANK))
-    run = Run(HUNTER, TANK, SEED, K)
+    *_, frame = ask(advance(STEPS), change, advance(STEPS), parameters=parameters_in_page(first, TANK))
+    run = Run(first, TANK, SEED, K)
     reward = run.advance(STEPS)
     run.change(later)
     assert frame["reward"] == reward + run.advance(STEPS) != 0

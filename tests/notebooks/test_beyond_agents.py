@@ -19,7 +19,7 @@ def page():
 def test_all_parts_make_the_forager_and_none_the_bare_agent(page):
     assert page.agent_with(page.PARTS) == forager() and len(page.PARTS) == 8
     bare = page.agent_with(())
-    assert (bare.contacts.fear, bare.contacts.rivals) == ("approach", "add")
+    assert (bare.contacts.fear, bare.contacts.rivals) == ("approach", 1.0)
     assert bare.contacts.first_value == bare.contacts.trace_rate == 0 and len(bare.nodes[0].modality.axes) == 2
 
 
