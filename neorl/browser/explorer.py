@@ -48,7 +48,9 @@ from neorl.worlds.waterworld import WaterWorld
 traitlets = require("traitlets", extra="wasm")
 
 START_HERE = {"Foveated cells, contacts alone": forager.forager(valence_green=1.0, valence_red=-1.0),
-              "Place and object-vector cells": papers.multimodal()}
+              "Place and object-vector cells": papers.multimodal(),
+              "Foveated cells, after-states": forager.forager(valence_green=1.0, valence_red=-1.0,
+                                                              **forager.AFTER_STATES)}
 OF_THE_PAPERS = {  # with the defaults of the package
     "Place cells": papers.place_cells(), "Object-vector cells": papers.object_vector_cells(),
     "Network A": papers.network_a(), "Network B": papers.network_b(), "Network C": papers.network_c(),
@@ -69,7 +71,8 @@ OTHER_SPACES = {  # agents, and their worlds
 GROUPS = {"Start here": START_HERE, "The papers, calibrated": OF_THE_PAPERS, "The papers, to the letter": TO_THE_LETTER,
           "Other worlds": IN_THE_ARENA | {name: agent for name, (agent, _) in OTHER_SPACES.items()}}
 AGENTS = {name: agent for agents in GROUPS.values() for name, agent in agents.items()}
-LABELS = {"Foveated cells, contacts alone": "Forager: foveated cells, contacts alone"}
+LABELS = {"Foveated cells, contacts alone": "Forager: foveated cells, contacts alone",
+          "Foveated cells, after-states": "Forager that knows its own push: foveated cells, after-states"}
 STEPS = 300_000  # of a run of an agent that is not a condition of the page
 LITTLE_HAPPENS = 120_000  # first steps of networks of desires, which the page runs at full speed
 SCRIPTS = ("elements.js", "settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js",

@@ -6,8 +6,9 @@ from page_cells import executed
 
 from companion.alternatives.controllers import act_planner, planner
 from companion.alternatives.search import best_settings
-from companion.beyond_agents import figures, search
+from companion.beyond_agents import figures, ideas, search
 from neorl import NresMap, Run, WaterWorld, forager, kernel, multimodal, simulate
+from neorl.agents.forager import AFTER_STATES
 from neorl.custom import execute
 from neorl.core.choices import Action
 
@@ -35,7 +36,7 @@ def test_receptive_fields_are_as_large_without_mirror_images(page):
 
 def test_each_condition_has_another_agent_and_long_runs_are_four_times_as_long(page):
     made = page.made
-    assert len({repr(each.agent) for each in made.values()}) == 18  # two ways lead to all parts but the last
+    assert len({repr(each.agent) for each in made.values()}) == 19  # two ways lead to all parts but the last
     assert [made[f"{n} creeps"].world.n_creeps for n in (3, 8)] == [3, 8]
     assert {each.world.n_creeps for name, each in made.items() if "creeps" not in name} == {4}
     assert {each.steps for each in made.values()} == {5_000, 20_000}
@@ -100,3 +101,31 @@ def test_the_forager_is_the_best_of_its_record():
     assert search.agent_of(best) == forager()
     found = simulate(forager(), WaterWorld(), runs=4, steps=150_000, seed=search.SEED, progress=False)
     assert np.isclose(found.rate(2 / 3).mean(), best["with_3"], atol=2e-3)
+
+
+def test_ideas_lead_from_the_forager_to_that_of_after_states_one_by_one():
+    assert ideas.agent_with(()) == forager() and ideas.agent_with(ideas.IDEAS) == forager(**AFTER_STATES)
+    agents = {name: ideas.agent_with(each) for name, each in ideas.agents().items()}
+    assert len({repr(each) for each in agents.values()}) == len(agents) == 2 + 2 * len(ideas.IDEAS)
+    for idea in ideas.IDEAS:
+        one, other = agents[f"{idea} alone"], agents[f"all but {idea}"]
+        for agent, base in ((one, agents[ideas.WITHOUT]), (other, agents[ideas.ALL])):
+            changed = [name for name in vars(agent.contacts) if getattr(agent.contacts, name) != getattr(base.contacts,
+                                                                                                         name)]
+            assert len(changed) + (agent.nodes != base.nodes) == 1
+
+
+@pytest.mark.parametrize("name, creeps", [(ideas.ALL, 3), ("all but twelve maps", 8)])
+def test_the_record_of_ideas_has_the_runs_of_its_seeds(name, creeps):
+    run = Run(ideas.agent_with(ideas.agents()[name]), WaterWorld(n_creeps=creeps), seed=ideas.SEEDS[5])
+    earned = [run.advance(ideas.STEPS // 3) / (ideas.STEPS / 3 / run.world.fps) for _ in range(3)]
+    thirds = ideas.thirds_of(name, creeps)
+    assert thirds.shape == (len(ideas.SEEDS), 3) and np.allclose(thirds[5], earned, atol=2e-2)
+
+
+def test_what_is_said_of_the_target_follows_from_the_record(monkeypatch):
+    low, high = 3.0, 3.5
+    for target, words in ((low, "is reached"), (high, "not reached"), (ideas.thirds_of(ideas.ALL)[:, -1].mean(),
+                                                                       "neither reached nor missed")):
+        monkeypatch.setattr(ideas, "TARGET", target)
+        assert words in ideas.sentence()

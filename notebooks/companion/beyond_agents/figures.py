@@ -1,26 +1,44 @@
 """Figures of the page on the forager. A sample of rates is float64 (runs,)."""
 
 import numpy as np
+from matplotlib import pyplot as plt
 
+from companion.beyond_agents import ideas
 from companion.page.panels import add_curves
-from neorl.drawing.style import CURVES, GREEN, INK, RED, axes_or_new
+from neorl.drawing.style import CURVES, GREEN, INK, RED, axes_or_new, width_of_figures
 from neorl.statistics import estimate
 
 
-def draw_parts(way, without):
-    """Draw reward per second as parts are added in turn, and of the whole without each part: a row per part.
+def draw_parts(way, without, whole, way_label="parts added in turn", ax=None):
+    """Draw reward per second of a bare agent and with each part, and of the whole without each part: a row per part.
 
-    way: {agent: rates}, from the bare agent to the whole. without: {part: rates}, in the order of the rows.
+    way: {agent: rates}, first of the bare agent. without: {part: rates}, in the order of the rows. whole: its rates.
     """
-    axes = axes_or_new(None, figsize=(4.9, 4.2))
+    axes = axes_or_new(ax, figsize=(4.9, 4.2))
     added, left = ([estimate(np.mean, each) for each in rates.values()] for rates in (way, without))
     axes.errorbar([each.value for each in added], range(len(way)), xerr=_bars(added), fmt="o", color=CURVES[0],
-                  label="parts added in turn")
+                  label=way_label)
     axes.errorbar([each.value for each in left], range(1, len(way)), xerr=_bars(left), fmt="D", color=CURVES[5],
                   label="the whole without it")
-    axes.axvline(added[-1].value, color=INK, linewidth=0.7)
+    axes.axvline(np.mean(whole), color=INK, linewidth=0.7)
     axes.set_xlabel("reward per second, last third")
     _rows(axes, way)
+
+
+def draw_ideas(boards):
+    """Draw reward per second, over the last third, of the recorded foragers with ideas of after-states: a panel a tank.
+
+    boards: the numbers of creeps.
+    """
+    _, panels = plt.subplots(len(boards), 1, figsize=(width_of_figures(), 2.7 * len(boards)), layout="constrained")
+    for axes, creeps in zip(panels, boards):
+        last = {name: ideas.thirds_of(name, creeps)[:, -1] for name in ideas.agents()}
+        alone = {ideas.WITHOUT: last[ideas.WITHOUT]} | {idea: last[f"{idea} alone"] for idea in ideas.IDEAS}
+        without = {idea: last[f"all but {idea}"] for idea in ideas.IDEAS}
+        draw_parts(alone, without, last[ideas.ALL], "each alone", axes)
+        axes.set_title(f"{creeps} creeps")
+        axes.get_legend().remove()
+    panels[0].legend(frameon=False, fontsize=9, loc="upper right")
 
 
 def draw_oracles(boards):

@@ -16,8 +16,10 @@ from pathlib import Path
 
 import numpy as np
 
+from companion.page.wording import enumerated
 from neorl import Condition, Contacts, WaterWorld, forager, sweep
 from neorl.agents.forager import AFTER_STATES
+from neorl.statistics import difference, estimate
 
 SEEDS = range(90_001, 90_025)
 RECORD = Path(__file__).with_suffix(".json")
@@ -59,6 +61,23 @@ def thirds_of(name, creeps=3, steps=STEPS):
     (row,) = [row for row in json.loads(RECORD.read_text())
               if (row["agent"], row["creeps"], row["steps"]) == (name, creeps, steps)]
     return np.array(row["thirds"])
+
+
+def sentence():
+    """What came out in the last third: whether the target was reached, and which ideas the whole could do without."""
+    none, whole = (estimate(np.mean, _last(name, 3)) for name in (WITHOUT, ALL))
+    reached = ("reached" if whole.low >= TARGET else "not reached" if whole.high < TARGET else
+               "within the interval, so neither reached nor missed")
+    needed = min(IDEAS, key=lambda idea: _last(f"all but {idea}", 3).mean())
+    better = [f"{idea} among {creeps} creeps" for creeps in (3, 8) for idea in IDEAS
+              if estimate(difference, _last(f"all but {idea}", creeps), _last(ALL, creeps)).low > 0]
+    return (f"Among three creeps all of them earn {whole} a second, and none of them {none}; the target of {TARGET} is "
+            f"{reached}. The whole loses most without {needed}, and "
+            + (f"earns more without {enumerated(better)}" if better else "needs each of them"))
+
+
+def _last(name, creeps):
+    return thirds_of(name, creeps)[:, -1]
 
 
 if __name__ == "__main__":
