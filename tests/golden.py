@@ -54,7 +54,7 @@ def seeker(**choices):
 
 
 CONTACTS = Contacts(0.65, 0.02, 15.0, 0.3, 0.3, 0.4, "avoidance", 0.0)
-AFTER_STATES = Contacts(0.65, 0.02, 15.0, 0.3, 0.3, 0.4, "avoidance", 0.3, 0.25)
+AFTER_STATES = Contacts(0.65, 0.02, 15.0, 0.3, 0.3, 0.4, "avoidance", 0.3, 0.25, 0)
 
 
 def contact_network():
@@ -73,7 +73,7 @@ def after_state_network():
     desires = [Desire("green", "PC", 1.0), Desire("green", "OVC × V", "learned"), Desire("PC", "OVC × V"),
                Desire(Place(0.2, 0.9), "OVC × V", 0.1), Desire("red", "OVC × V", "learned")]
     return Agent([Node("PC", modality.PLACE_CELL, [3, 7], "cells"), *forager([5, 9]).nodes], desires, plain_rule(),
-                 Policy(0.05, "random"), contacts=AFTER_STATES)
+                 Policy(0.05, "random"), contacts=replace(AFTER_STATES, lookahead=1))
 
 
 RULES = {
@@ -150,6 +150,7 @@ RUNS = {
     "contacts": (forager([5, 9, 15], contacts=CONTACTS), 3),
     "contacts, network": (contact_network(), 8),
     "after-states": (forager([4, 6, 9, 13], contacts=AFTER_STATES), 3),
+    "after-states, looking ahead": (forager([4, 6, 9, 13], contacts=replace(AFTER_STATES, lookahead=2)), 3),
     "after-states, network": (after_state_network(), 8),
     "after-states, resets unnoticed": (replace(forager([5, 9], contacts=AFTER_STATES), **UNNOTICED), BASIN),
 }

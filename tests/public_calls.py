@@ -122,7 +122,7 @@ TABLE = {
     "neorl.agents.rules.Contacts": entry(
         Contacts, horizon=st.floats(0.01, 9), learning_rate=shares, familiarity=st.floats(0, 99), first_value=shares,
         trace_rate=shares, caution=st.floats(0, 9), fear=["avoidance", "approach"], rivals=shares,
-        efference=st.floats(0, 9),
+        efference=st.floats(0.1, 9), lookahead=st.integers(0, 3),
         then=lambda contacts: live(forager([3, 5], contacts=contacts))),
     "neorl.agents.forager.forager": entry(
         forager, resolutions=[(3,), (3, 5)], valence_green=[1.0, "learned"], valence_red=[-1.0, "learned"],

@@ -17,7 +17,7 @@ AXIS = Axis("position", along=1, low=-1.0, high=2.0, intervals=3, name="y")
 NODE = Node("PC", PLACE_CELL, (3, 7), gain=0.5)
 VALUES = [  # instances of every public dataclass, with a number in every field that can hold one
     Learning(memory=2.0), Policy(exploration=0.25), NODE, AXIS,
-    Contacts(0.5, 0.25, 4.0, 0.5, 0.25, 0.5, "avoidance", 0.25, 0.25),
+    Contacts(0.5, 0.25, 4.0, 0.5, 0.25, 0.5, "avoidance", 0.25, 0.25, 2),
     Axis("position", boundaries=(0.0, 0.25, 1.0)), LANDMARK_VECTOR_CELL, Place(0.5, 0.25), NresMap(4, PLACE_CELL),
     Desire("green", "PC", valence=-1.0, scale=2.0), Desire((0.5, 0.25), "PC", 1.0), Agent((NODE,), own_cell="silent"),
     Actions(("N", "S"), ((0.0, 1.0), (1.0, 0.0)), "no-op"), WaterWorld(n_creeps=4, win_reward=5.0),

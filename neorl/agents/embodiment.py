@@ -137,7 +137,8 @@ def _contacts(agent, fps, actions):
             "familiarity": contacts.familiarity, "first_value": contacts.first_value,
             "trace": TRACE_STEPS if learns else 1, "trace_rate": contacts.trace_rate, "caution": contacts.caution,
             "flees": contacts.fear == "avoidance", "rivals": contacts.rivals, "efference": contacts.efference,
-            "after_states": actions if learns and contacts.efference > 0 else 0}
+            "after_states": actions if learns and contacts.efference > 0 else 0, "lookahead": contacts.lookahead,
+            "step": 1.0 / fps}
 
 
 def _frames(actions, name):

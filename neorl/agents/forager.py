@@ -14,11 +14,11 @@ FOVEATED_CELL = Modality("foveated object-vector cell", [
     *(Axis("objects", "foveated", along) for along in (0, 1)),
     *(Axis("velocity", "component", along, -FASTEST, FASTEST) for along in (0, 1))], mirrored=True)
 
-# Values of after-states in WaterWorld, where a push adds a quarter of the board's width per second to the velocity, in
-# maps enough that some field is of the right size wherever a creep is.
+# For WaterWorld, where a push adds a quarter of the board's width per second to the velocity: values of after-states, a
+# look ahead, and maps so many that some field is of the right size wherever a creep is.
 AFTER_STATES: dict[str, Any] = {
     "resolutions": (4, 5, 6, 7, 9, 11, 13, 15, 18, 22, 26, 31),
-    "contacts": Contacts(familiarity=30.0, rivals=0.3, efference=0.25)}
+    "contacts": Contacts(familiarity=30.0, rivals=0.3, efference=0.25, lookahead=2)}
 
 
 @paper_agent
@@ -30,7 +30,7 @@ def forager(resolutions: Sequence[int] = (5, 9, 15, 25), valence_green: float | 
     contacts: how it learns, a `Contacts`. Raises ValueError for anything else.
 
     ``forager(**AFTER_STATES)`` earns more in WaterWorld. It supposes that the agent knows what its own push does to its
-    velocity, see `Contacts.efference`.
+    velocity, see `Contacts.efference`, and what this does to its position, see `Contacts.lookahead`.
     """
     return Agent([Node("OVC × V", FOVEATED_CELL, resolutions, goals="contacts")],
                  [Desire("green", "OVC × V", valence_green), Desire("red", "OVC × V", valence_red)], policy=GREEDY,

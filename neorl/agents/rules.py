@@ -10,13 +10,14 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from neorl.common import checks
-from neorl.common.checks import NotNegative, OneOf, Positive, Share
+from neorl.common.checks import NotNegative, OneOf, Positive, Share, Within
 from neorl.core.choices import Credit, UpdateOn
 from neorl.core.policy import greedy
 from neorl.kernels.kernel import check_kernel
 
 CREDITS = tuple(name for name in Credit.__members__ if name != "own")
 WHEN_INDIFFERENT = ("random", "no-op")
+MOST_AHEAD = 100  # steps of coasting
 
 
 @dataclass(frozen=True)
@@ -95,6 +96,10 @@ class Contacts(checks.Final):
         positions of things together with its own velocity after the push that it is about to give, and all nodes with
         contacts as goals must have an axis of velocity. 0 stands for an agent without an efference copy, whose values
         are those of actions.
+    lookahead: in 0 … 100, only with an efference copy. The approach of an action is then the mean of that of its
+        after-state and of those that the agent would be in after one more push, 1 … `lookahead` steps later, if it
+        coasted until then and things stood still. The agent is supposed to know what its velocity does to its
+        position, by path integration.
 
     Raises ValueError for anything else.
     """
@@ -108,9 +113,12 @@ class Contacts(checks.Final):
     fear: Annotated[str, OneOf(("avoidance", "approach"))] = "avoidance"
     rivals: Share = 0.0
     efference: NotNegative = 0.0
+    lookahead: Annotated[int, Within(0, MOST_AHEAD)] = 0
 
     def __post_init__(self):
         checks.check_fields(self)
+        if self.lookahead > 0 and self.efference == 0:
+            raise checks.error("lookahead", "0 without an efference copy (efference is 0)", self.lookahead)
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,9 @@ functions, discounted by time and learned off-policy, the same for every thing, 
    *after-states* (Sutton and Barto 2018, section 6.8) in place of actions: of the cell in which a thing is seen once
    the push is given. An after-state has one approach and one fear, whichever action led to it. An axis with a kernel of
    the user's own represents the velocity before the push.
+7. Such an agent can *look ahead*. The approach of an action is then a mean over 0 … n steps of coasting after the push:
+   of the after-state, and, for each later moment, of the best of those that one more push would lead to there,
+   discounted. Of all motion, only the agent's own is foreseen, in a straight line.
 
 `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
@@ -243,6 +246,32 @@ def remember_back(contacts, memory, t):
 
 
 @kernel
+def look_ahead(agent, memory, scene, user, node, point, action, from_offset, value):
+    """The approach of an action, with that of coasting after it and one more push later: see rule 7 of this module.
+
+    value: the approach of its after-state.
+    """
+    # (V(y₀) + Σ_k γᵏ max_b V(y_k(b))) / (n + 1) for k = 1 … n
+    contacts, axes, worth = agent.contacts, agent.here.shape[0], 1.0
+    for _ in range(contacts.lookahead):
+        worth *= contacts.discount
+        best = 0.0
+        for axis in range(axes):
+            velocity = scene.velocity[axis] / agent.size + contacts.efference * agent.push[action, axis]
+            agent.ahead[axis] += velocity * contacts.step
+        for later in range(agent.rates.shape[0]):
+            for axis in range(axes):
+                agent.efferent[axis] = contacts.efference * (agent.push[action, axis] + agent.push[later, axis])
+            locate(agent, memory, scene, user, node, point, from_offset)
+            seen_cells(agent, memory, node)
+            best = max(best, blended(agent, memory, node, 0, np.uint64(APPROACH)))
+        value += worth * best
+    for axis in range(axes):
+        agent.ahead[axis] = agent.efferent[axis] = 0.0
+    return value / (contacts.lookahead + 1)
+
+
+@kernel
 def evaluate_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunctions, n: int) -> None:
     """Compute the contributions of a node's desires to its Q-vector: see rule 5 of this module."""
     node, contacts, actions, axes = agent.nodes[n], agent.contacts, agent.rates.shape[0], agent.here.shape[0]
@@ -283,7 +312,10 @@ def evaluate_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFun
                     see_track(agent, memory, node, thing, action)
                 else:
                     see_after(agent, memory, scene, user, node, 0, action, True)
-                agent.rival[action] = worth * blended(agent, memory, node, valued, which)
+                value = blended(agent, memory, node, valued, which)
+                if contacts.lookahead > 0 and which == APPROACH:
+                    value = look_ahead(agent, memory, scene, user, node, thing, action, not of_kind, value)
+                agent.rival[action] = worth * value
                 highest = max(highest, agent.rival[action])
             if worth < 0.0:
                 for action in range(actions):

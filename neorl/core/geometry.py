@@ -26,7 +26,7 @@ from neorl.kernels.kernel import inlined_kernel, kernel
 @inlined_kernel
 def component(agent, memory, scene, node, vector, point, axis):
     """One component of the vector of a point, along an axis of the world."""
-    own = scene.position[axis] / agent.size
+    own = scene.position[axis] / agent.size + agent.ahead[axis]
     if vector == Vector.position:
         return own
     if vector == Vector.velocity:
@@ -63,7 +63,7 @@ def locate(agent, memory, scene, user, node, point, from_offset):
             if coordinate != coordinate:  # it is not a number
                 agent.faults[OF_AXIS] = axis.along + 1
         elif axis.feature <= Feature.margin:
-            coordinate = (offset[axis.along] if replaced else
+            coordinate = (offset[axis.along] - agent.ahead[axis.along] if replaced else
                           component(agent, memory, scene, node, axis.vector, point, axis.along))
             if axis.feature == Feature.foveated:
                 root = math.sqrt(abs(coordinate))  # abs() avoids a library call for negative arguments
@@ -74,7 +74,7 @@ def locate(agent, memory, scene, user, node, point, from_offset):
         else:
             coordinate, x, y = 0.0, 0.0, 0.0
             for along in range(agent.here.shape[0]):
-                value = (offset[along] if replaced else
+                value = (offset[along] - agent.ahead[along] if replaced else
                          component(agent, memory, scene, node, axis.vector, point, along))
                 coordinate += value * value
                 x, y = value if along == 0 else x, value if along == 1 else y

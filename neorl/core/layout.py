@@ -103,7 +103,8 @@ CONTACTS = record_of(  # see `neorl.agents.rules.Contacts`
     ("learning_rate", REAL), ("familiarity", REAL), ("first_value", REAL),
     ("trace", INT),  # steps back over which a contact is credited
     ("trace_rate", REAL), ("caution", REAL), ("flees", FLAG), ("rivals", REAL), ("efference", REAL),
-    ("after_states", INT))  # that a track follows: one for each action, or 0 if values are of actions
+    ("after_states", INT),  # that a track follows: one for each action, or 0 if values are of actions
+    ("lookahead", INT), ("step", REAL))  # steps of coasting; seconds of one
 POLICY = record_of(  # see `neorl.agents.rules.Policy`
     ("exploration", REAL), ("indifferent_is_no_op", FLAG),
     ("is_greedy", FLAG),  # the usual policy, which is compiled into the kernels instead of being called
@@ -161,7 +162,8 @@ def agent_type(actions, axes, rows):
         # working memory
         ("rates", SINGLE, actions),  # of the events in the cell that a track leaves
         ("here", REAL, axes),  # where the agent is, in units of the world's size
-        ("efferent", REAL, axes),  # what the push in question adds to its velocity, in the same units
+        ("efferent", REAL, axes),  # what the pushes in question add to its velocity, in the same units
+        ("ahead", REAL, axes),  # how far it would move until the moment in question
         ("offset", REAL, rows), ("coordinates", REAL, rows),  # of an element of interest from the agent; of a point
         ("seen", INT, rows),  # the cells of a point, for each map
         ("rival", REAL, actions), ("favourite", REAL, actions))  # what a thing, and the best, adds to action values

@@ -67,6 +67,15 @@ class Restated:
     def values(self, seen, which):
         return [self.blend(cells, event, which) for cells, event in seen]
 
+    def approaches(self, thing, velocity):
+        """The approach of each action, float64 (actions,), as the mean over all moments of looking ahead."""
+        moments = [self.values(self.seen(thing, velocity), APPROACH)]
+        pushed = velocity + self.contacts.efference * np.array(CARDINAL.pushes)
+        for steps in range(1, self.contacts.lookahead + 1):
+            seen = [self.seen(thing - steps / 50 * after, after) for after in pushed]
+            moments.append([self.discount**steps * max(self.values(each, APPROACH)) for each in seen])
+        return np.mean(moments, axis=0)
+
     def learn(self, thing, seen_before, action, seen_now, met):
         cells, action = seen_before[action]
         approach = 1.0 if met else self.discount * max(self.values(seen_now, APPROACH))
@@ -132,10 +141,10 @@ def test_the_maps_learn_as_the_rules_say(contacts):
     assert compared > 100
 
 
-@pytest.mark.parametrize("efference", [0.0, 0.25])
+@pytest.mark.parametrize("efference, lookahead", [(0.0, 0), (0.25, 0), (0.25, 1), (0.25, 3)])
 @pytest.mark.parametrize("rivals", [0.0, 0.3, 1.0])
-def test_the_best_thing_counts_in_full_and_each_other_by_its_share(efference, rivals):
-    contacts = Contacts(efference=efference, rivals=rivals)
+def test_the_best_thing_counts_in_full_and_each_other_by_its_share(efference, lookahead, rivals):
+    contacts = Contacts(efference=efference, rivals=rivals, lookahead=lookahead)
     run = Run(forager([2, 5], 1.0, -1.0, contacts=contacts), WaterWorld(n_creeps=8), 4)
     run.advance(20_000)
     run.learns = False
@@ -148,7 +157,8 @@ def test_the_best_thing_counts_in_full_and_each_other_by_its_share(efference, ri
     for _ in range(200):
         scene = run.world_state.scene
         seen = [restated.seen((thing - scene.position) / 250, scene.velocity / 250) for thing in scene.things]
-        greens = [np.array(restated.values(seen[k], APPROACH)) for k in np.flatnonzero(scene.kinds == 0)]
+        greens = [restated.approaches((scene.things[k] - scene.position) / 250, scene.velocity / 250)
+                  for k in np.flatnonzero(scene.kinds == 0)]
         fears = [restated.values(seen[k], FEAR) for k in np.flatnonzero(scene.kinds == 1)]
         expected = np.zeros(4) - contacts.caution * np.sum(fears, axis=0)
         if greens:

@@ -92,7 +92,7 @@ def test_every_array_and_every_field_says_whether_it_is_kept():
     assert list(KEEPING) == list(Memory._fields)
     kept = {name.partition(".")[2] for name in Run(forager(), TANK)._state() if name.startswith("agent.")}
     chosen = set(choices_in(forager(), TANK)) | {f"n_{name}" for name in TABLES} | {"maps", "axes", "inputs"}
-    working = {"faults", "rates", "here", "efferent", "offset", "coordinates", "seen", "rival", "favourite"}
+    working = {"faults", "rates", "here", "efferent", "ahead", "offset", "coordinates", "seen", "rival", "favourite"}
     assert kept | chosen | working >= set(agent_type(4, 2, 32).names) and not kept & working and len(kept) == 7
 
 
