@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from companion.page import recorded
 from companion.thesis.reading import READINGS
-from companion.wanted import findings, lessons, measures
+from companion.wanted import findings, lessons, measures, ten_hours
 from companion.wanted.yoked import Partner
 from page_cells import executed
 
-from neorl import Run, WaterWorld, multimodal
+from neorl import Desire, Place, Run, WaterWorld, multimodal
 
 TANK = WaterWorld()
 
@@ -125,6 +125,61 @@ def test_the_answer_is_in_words_and_every_table_has_a_row_for_each_desire():
         assert all(f"| {findings.WAS[wanted].capitalize()} |" in made for wanted in lessons.WANTED)
     said = findings.predictions("letter"), findings.every_lesson("letter"), *map(findings.in_chapter_5, READINGS)
     assert not any("nan" in words for words in said)
+
+
+def test_a_restless_agent_fears_where_it_was_at_the_beginning_of_each_second():
+    agent = multimodal([5])
+    restless, changed = ten_hours.Restless(ten_hours.fearing(agent, 2.0), TANK, 3), Run(agent, TANK, 3)
+    hits = 0
+    for _ in range(8):
+        place = Place(*changed.world_state.scene.position / TANK.size)
+        changed.change(replace(agent, desires=[*agent.desires, *(Desire(place, node.name, -2.0)
+                                                                 for node in agent.nodes)]))
+        hits = hits + changed.record(TANK.fps, every=TANK.fps).hits[0]
+    assert np.array_equal(restless.met(8 * TANK.fps), hits)
+    assert np.array_equal(restless.world_state.scene.position, changed.world_state.scene.position)
+
+
+def test_today_s_agent_takes_its_ten_hours_as_any_run_does():
+    row = ten_hours.row_of("calibrated", "kept", "today", 5, 1, pieces=2, piece=1, measured=0.1)
+    run = Run(lessons.desiring(lessons.agent_of("calibrated"), "green, fearing red"), lessons.WORLD, 5, 1)
+    assert np.array_equal(row.green, [run.record(3_000, every=3_000).hits[0, 0] for _ in range(2)])
+    assert row.known[-1] == measures.caught(run, 1, minutes=0.1)
+
+
+@pytest.mark.parametrize("way", ["learning ends after 100 minutes", "6 seconds a minute without desire", "trail −1"])
+def test_every_way_turns_its_desire_and_differs_from_today_s_agent(way):
+    today, other = (ten_hours.row_of("letter", "turned", each, 5, 0, pieces=4, piece=2, measured=0.5)
+                    for each in ("today", way))
+    assert np.array_equal(today.known[:2], other.known[:2]) == ("6 seconds" not in way)
+    assert not np.array_equal(today.red[2:], other.red[2:])
+
+
+@pytest.mark.parametrize("path, plan", [(ten_hours.SHIPPED, "report"), (ten_hours.SEARCHED, "search")])
+def test_the_recorded_hours_are_whole(path, plan):
+    wanted, seed, runs = ten_hours.PLANS[plan]
+    expected = {(*each, way, k) for *each, ways in wanted for way in ways for k in range(runs)}
+    rows = ten_hours.read(path)
+    assert {row[:4] for row in rows} == expected and len(rows) == len(expected)
+    with open(path, newline="") as file:
+        assert {line["seed"] for line in csv.DictReader(file)} == {str(seed)}
+    assert all(len(series) == ten_hours.PIECES for row in rows for series in row[4:])
+
+
+def test_the_first_piece_of_a_recorded_run_comes_out_again():
+    (row,) = [row for row in ten_hours.read() if row[:4] == ("letter", "kept", "today", 1)]
+    again = ten_hours.row_of("letter", "kept", "today", ten_hours.SEED, 1, pieces=1)
+    assert [f"{each[0]:.4g}" for each in again[4:]] == [f"{each[0]:.4g}" for each in row[4:]]
+
+
+def test_a_way_keeps_what_is_known_if_no_piece_is_below_and_it_earns_as_much_as_today():
+    for reading in READINGS:
+        for task in ten_hours.TASKS:
+            ways = findings.hours_of(reading, task)
+            for way, each in ways.items():
+                assert each.is_kept == (each.lowest >= 170 and each.paid.value >= ways["today"].paid.value)
+                assert f"| {way} |" in findings.hours(reading)
+        assert "nan" not in findings.mended(reading) + findings.turned(reading)
 
 
 def test_the_page_runs_and_its_partners_have_their_actors_streams():

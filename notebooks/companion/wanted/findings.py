@@ -95,7 +95,8 @@ def conclusion(reading, path=SHIPPED):
 
 def answer():
     """The recorded answer of the page, as HTML: what agents know, and why."""
-    return recorded.shown(f"{answers.answer('wanted')} Yoked partners tell why. {why('calibrated')} {why('letter')}",
+    return recorded.shown(f"{answers.answer('wanted')} Yoked partners tell why. {why('calibrated')} {why('letter')} "
+                          f"{turned('calibrated')}",
                           {"": recorded.SHOWN["wanted"]})
 
 
@@ -215,9 +216,23 @@ def mended(reading):
     """Which ways keep what is known, in a sentence."""
     parts = []
     for task, words in TASKS.items():
-        ways = [f"{way} ({each.lowest:.0f} or more)" for way, each in hours_of(reading, task).items() if each.is_kept]
-        parts.append(f"{words}, {KEPT} discs a minute are kept at no cost by {enumerated(ways) or 'no way'}")
-    return f"{NAMES[reading].capitalize()}: {'; '.join(parts)}."
+        ways = [f"{_named(way)} ({each.lowest:.0f} or more)" for way, each in hours_of(reading, task).items()
+                if each.is_kept]
+        parts.append(f"{words}, {enumerated(ways) or 'nothing recorded'} keeps {KEPT} discs a minute and earns no less "
+                     "than today's agent")
+    return f"{NAMES[reading].capitalize()}, in the mean over runs: {'; '.join(parts)}."
+
+
+def turned(reading):
+    """What agents know that learn on after their desire has turned, with and without a trail, in a sentence."""
+    ways = hours_of(reading, "turned")
+    best = max((way for way in ways if "trail" in way), key=lambda way: ways[way].lowest)
+    return (f"Agents that come to want both and learn on know {ways['today'].known.value:.0f} discs a minute after ten "
+            f"hours, and {ways[best].known.value:.0f} if they also fear the place where they have just been.")
+
+
+def _named(way):
+    return "today's agent" if way == "today" else f"“{way}”"
 
 
 def in_chapter_5(reading, path=SHIPPED):
