@@ -13,6 +13,7 @@ from neorl.drawing.style import CURVES, INK, SMALL, width_of_figures
 HEIGHT = 3.4  # inches
 APART, WIDTH = 0.3, 0.26  # of the two bars of a desire, and of each
 PALE, ROOM = 0.3, 1.1
+SHORT = {"a tenth of the learning rate": "slower", "1 minute in 10 without desire": "pauses"}  # names of ways
 
 
 def draw_knowledge(reading, here):
@@ -50,7 +51,7 @@ def draw_hours(reading):
     figure, panels = plt.subplots(2, 1, sharex=True, figsize=(width_of_figures(), 2 * HEIGHT), layout="constrained")
     hours = ten_hours.PIECE / 60 * (1 + np.arange(ten_hours.PIECES))
     for axes, (task, title) in zip(panels, findings.TASKS.items()):
-        curves = {way: known[:, 2] for (of, which, way), known in ten_hours.recorded().items()
+        curves = {SHORT.get(way, way): known[:, 2] for (of, which, way), known in ten_hours.recorded().items()
                   if (of, which) == (reading, task)}
         axes.set_ylim(0, ROOM * max(known.mean(axis=0).max() for known in curves.values()))
         draw_curves(hours, curves, "hours" if task == "turned" else "", "discs a minute", axes)

@@ -95,8 +95,8 @@ def conclusion(reading, path=SHIPPED):
 
 def answer():
     """The recorded answer of the page, as HTML: what agents know, and why."""
-    return recorded.shown(f"{answers.answer('wanted')} Yoked partners tell why. {why('calibrated')} {why('letter')} "
-                          f"{turned('calibrated')}",
+    return recorded.shown(f"{answers.answer('wanted')} Yoked partners tell why. {why('calibrated')} "
+                          f"{turned('calibrated')} {why('letter')}",
                           {"": recorded.SHOWN["wanted"]})
 
 
@@ -108,7 +108,8 @@ def why(reading, path=SHIPPED):
 
 
 def _streams(names):
-    return f"{'all' if len(names) == len(NARROW) else f'{len(names)} of'} {len(NARROW)} streams"
+    many = "all" if len(names) == len(NARROW) else f"{len(names) or 'none'} of the"
+    return f"{many} {len(NARROW)} streams"
 
 
 def predictions(reading, path=SHIPPED):
@@ -163,8 +164,8 @@ def by_desire(reading, path=SHIPPED):
     named = [(WAS[wanted], level(reading, wanted, "own", "earned", path).value) for wanted in WANTED]
     best = max(named, key=lambda pair: pair[1])
     rest = enumerated(f"{words} {earned:.2f}" for words, earned in named if words != best[0])
-    return (f"Under the desire of the papers those earn most, {best[1]:.2f} points a second, that wanted {best[0]} "
-            f"while they learned; those that wanted {rest} points.")
+    return (f"Told to want what the papers' agents do, those earn most, {best[1]:.2f} points a second, that had wanted "
+            f"{best[0]}. By other desires: {rest}.")
 
 
 def coverage(reading, path=SHIPPED):
@@ -218,8 +219,8 @@ def mended(reading):
     for task, words in TASKS.items():
         ways = [f"{_named(way)} ({each.lowest:.0f} or more)" for way, each in hours_of(reading, task).items()
                 if each.is_kept]
-        parts.append(f"{words}, {enumerated(ways) or 'nothing recorded'} keeps {KEPT} discs a minute and earns no less "
-                     "than today's agent")
+        parts.append(f"{words}, {KEPT} discs a minute are kept, at rewards no lower than today's, by "
+                     f"{enumerated(ways) or 'none of the recorded ways'}")
     return f"{NAMES[reading].capitalize()}, in the mean over runs: {'; '.join(parts)}."
 
 
@@ -228,7 +229,7 @@ def turned(reading):
     ways = hours_of(reading, "turned")
     best = max((way for way in ways if "trail" in way), key=lambda way: ways[way].lowest)
     return (f"Agents that come to want both and learn on know {ways['today'].known.value:.0f} discs a minute after ten "
-            f"hours, and {ways[best].known.value:.0f} if they also fear the place where they have just been.")
+            f"hours, and {ways[best].known.value:.0f} if they also fear the place where they have just been ({best}).")
 
 
 def _named(way):

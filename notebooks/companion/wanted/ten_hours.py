@@ -143,7 +143,8 @@ SEARCH = [("calibrated", task, [*WAYS]) for task in TASKS]
 REPORTED = [("calibrated", "kept", ["today", "ε = .02", "ε = .1"]),
             ("calibrated", "turned", ["today", "ε = .2", "trail −2", "trail −3, ε = .2"]),
             ("letter", "kept", ["today", "ε = .1", "trail −1", "a tenth of the learning rate",
-                                "1 minute in 10 without desire"]), ("letter", "turned", ["today", "ε = .2", "trail −1"])]
+                                "1 minute in 10 without desire"]),
+            ("letter", "turned", ["today", "ε = .2", "trail −1"])]
 PLANS = {"search": (SEARCH, SEARCH_SEED, SEARCH_RUNS), "report": (REPORTED, SEED, RUNS)}
 
 
