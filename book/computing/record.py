@@ -45,7 +45,7 @@ RUNS = {"claims": CALIBRATED, "letter": CALIBRATED | dict.fromkeys(
 CONTROLS = 1_000  # runs of Brownian motion
 OF_PAGES = 100  # runs of claims that pages judge
 AT_50 = {"layers": 100, "single": 50}  # of the calibrated reading with paper A at 50 steps per second
-FORAGER = replace(behind.FORAGER, runs=OF_PAGES, seed=SEED)
+FORAGERS = {name: replace(each, runs=OF_PAGES, seed=SEED) for name, each in behind.FORAGERS.items()}
 REMEDY = "make record"
 SAMPLED = (("brownian", 8), ("layer", 7), "layers", ("single", 50), ("place", "all"), ("objects", "all"), "both",
            *(("network", name) for name in "ABCD"), "revalued")
@@ -66,7 +66,7 @@ def main():
         results = results_of(reading, RUNS[part])
         content[part] = content[part] | report.kept(of_reading(results, RUNS[part]).values())
         curves[name] = {behind.words(key): curve(result) for key, result in results.items()}
-    curves["calibrated"]["forager"] = curve(next(sweep([FORAGER])))
+    curves["calibrated"] |= dict(zip(FORAGERS, map(curve, sweep([*FORAGERS.values()]))))
     at_50 = READINGS["calibrated"].varied(paper_a_fps=50)
     content |= {"paper A at 50": report.kept(judge(results_of(at_50, AT_50)).values()),
                 "commit": output("git", "rev-parse", "--short", "HEAD"), "date": f"{datetime.date.today()}"}

@@ -80,9 +80,10 @@ def made(tmp_path, monkeypatch):
     The record has paper A's groups alone, with a few runs of a few steps each.
     """
     page, few = tmp_path / "page.json", {"layers": 2}
+    foragers = {name: replace(each, steps=600, runs=2) for name, each in record.FORAGERS.items()}
     for name, value in {"RECORD": tmp_path / "record.json", "SAMPLED": (("single", 10), "layers"), "ROOT": tmp_path,
                         "RUNS": {"claims": few, "letter": few},
-                        "FORAGER": replace(record.FORAGER, steps=600, runs=2), "AT_50": {"layers": 2},
+                        "FORAGERS": foragers, "AT_50": {"layers": 2},
                         "CONTROLS": 2, "OF_PAGES": 2, "LENGTHS": {"A": 3_000, "B": 3_000},
                         "records": lambda: {"page": page}}.items():
         monkeypatch.setattr(record, name, value)
@@ -107,7 +108,7 @@ def test_a_record_has_claims_of_its_own_runs_and_those_of_pages_is_stable_and_no
     assert made() == text and found["commit"] == "abc1234"
     assert {name for name in STATEMENTS if found["claims"][name] != CLAIM} == OF_RUNS == {*found["letter"]}
     curves = json.loads(record.behind.CURVES.read_text())["calibrated"]
-    assert {*curves} == {"brownian 8", "layer 3", "layer 7", "layer 23", "layers", "forager"}
+    assert {*curves} == {"brownian 8", "layer 3", "layer 7", "layer 23", "layers", "forager", "forager of after-states"}
     assert curves["layer 7"]["runs"] == 2
     assert np.shape(curves["layer 7"]["curve"]) == (3, 50)
     assert np.mean(curves["layer 7"]["curve"][0]) == pytest.approx(curves["layer 7"]["whole"][0], abs=0.01)

@@ -17,11 +17,13 @@ from companion import thesis
 from companion.page import judging, report
 from companion.thesis.reading import LENGTHS, READINGS, conditions
 from neorl import Condition, WaterWorld, forager
+from neorl.agents.forager import AFTER_STATES
 from neorl.drawing.style import INK, SMALL, looks
 from neorl.statistics import FEWEST_RUNS, Estimate
 
 CURVES = resources.files(thesis) / "curves.json"
-FORAGER = Condition(forager(), WaterWorld(n_creeps=3), LENGTHS["A"], 1)  # of the page beyond the thesis
+FORAGERS = {name: Condition(agent, WaterWorld(n_creeps=3), LENGTHS["A"], 1) for name, agent in {  # of the page beyond
+    "forager": forager(), "forager of after-states": forager(**AFTER_STATES)}.items()}
 BINS = 50
 PALE = 0.22  # opacity
 
@@ -170,4 +172,5 @@ def _known():
     """The conditions that the record has curves of: {(reading, name): `Condition`}."""
     of_papers = {(name, words(key)): condition for name, reading in READINGS.items() if name in _curves()
                  for key, condition in conditions(reading, LENGTHS["B"], 1).items() if words(key) in _curves()[name]}
-    return of_papers | ({("calibrated", "forager"): FORAGER} if of_papers else {})
+    return of_papers | (
+        {("calibrated", name): each for name, each in FORAGERS.items()} if of_papers else {})
