@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from companion.recordings import pilots
 from page_cells import executed
 
 pytest.importorskip("ratinabox")
@@ -22,18 +23,18 @@ def page():
 
 
 def test_a_graph_goes_by_the_moves_that_were_seen_and_by_no_others(ways):
-    push = ways.by_graph(U_TURN, 3)((0.9, 0.1))
+    push = pilots.by_graph(U_TURN, 3)((0.9, 0.1))
     assert push(np.array([0.1, 0.1])) == pytest.approx([0.4 / 2.4, 1.0], abs=1e-9)  # towards the next cell
     assert push(np.array([0.5, 0.5])).tolist() == push(np.array([0.9, 0.1])).tolist() == [0, 0]
-    assert not ways.by_graph(U_TURN, 3)((0.1, 0.1))(np.array([0.9, 0.1])).any()  # nobody came back
+    assert not pilots.by_graph(U_TURN, 3)((0.1, 0.1))(np.array([0.9, 0.1])).any()  # nobody came back
     missing = np.arange(len(U_TURN) - 1) == 2
-    broken = ways.by_graph(U_TURN, 3, missing)((0.9, 0.1))
+    broken = pilots.by_graph(U_TURN, 3, missing)((0.9, 0.1))
     assert broken(np.array([0.5, 0.9])).any() and not broken(np.array([0.1, 0.1])).any()
 
 
 def test_a_graph_takes_the_fewest_moves(ways):
     there_and_across = np.concatenate([U_TURN, U_TURN[::-1], [[0.5, 0.1], [0.9, 0.1]]])
-    assert ways.by_graph(there_and_across, 3)((0.9, 0.1))(np.array([0.1, 0.1]))[0] == 1.0
+    assert pilots.by_graph(there_and_across, 3)((0.9, 0.1))(np.array([0.1, 0.1]))[0] == 1.0
 
 
 def test_a_walker_arrives_slides_along_walls_and_never_crosses_one(ways):

@@ -2,7 +2,7 @@
 
 1. Lengths are in metres, and boxes a metre wide, so that a place is a point of the unit square.
 2. A *pilot* is a function of a goal: it returns a function of the position, the push, (2,), whose largest component is
-   1, or 0 where the pilot knows no way. `by_desire` and `by_graph` make pilots.
+   1, or 0 where the pilot knows no way (`companion.recordings.pilots`).
 3. A walker moves with `SPEED` times the push and some noise. Where its pilot knows no way it goes on as before; at a
    wall of the box, it slides along it. It has arrived when the goal is `NEAR`.
 """
@@ -14,7 +14,6 @@ import numpy as np
 import ratinabox
 
 from companion.page.wording import number
-from neorl import Scene
 from neorl.statistics import estimate
 
 SECONDS = 0.1  # per step of a walker, and of a simulated animal
@@ -64,46 +63,6 @@ def roam(environment, steps, seed):
         animal.update()
         path.append(np.clip(animal.pos, 0, 1))
     return np.array(path)
-
-
-def by_desire(learner):
-    """A pilot that follows the desire vector of a learner's place cells."""
-    def to(goal):
-        learner.want(goal)
-        return lambda place: learner.output("PC", Scene(place), normalised=True).desire
-    return to
-
-
-def by_graph(path, n, ends=False):
-    """A pilot without values: the fewest moves between n × n cells among those that a path made, found breadth first.
-
-    ends: whether each step, (steps,), is no move, since frames are missing.
-    """
-    def cell(place):
-        x, y = np.minimum((np.asarray(place) * n).astype(int), n - 1).T
-        return x + n * y
-
-    cells = cell(path)
-    moved = (cells[1:] != cells[:-1]) & ~np.asarray(ends, bool)
-    before = {}  # the cells from which each was entered
-    for left, entered in sorted({*zip(cells[:-1][moved].tolist(), cells[1:][moved].tolist())}):
-        before.setdefault(entered, []).append(left)
-
-    def to(goal):
-        onward, edge = {int(cell(goal)): None}, [int(cell(goal))]
-        for entered in edge:
-            new = [left for left in before.get(entered, ()) if left not in onward]
-            onward.update(dict.fromkeys(new, entered))
-            edge += new
-
-        def push(place):
-            following = onward.get(int(cell(place)))
-            if following is None:
-                return np.zeros(2)
-            ahead = (np.array([following % n, following // n]) + 0.5) / n - place
-            return ahead / np.abs(ahead).max()
-        return push
-    return to
 
 
 def walk(push, environment, start, goal, noise):
