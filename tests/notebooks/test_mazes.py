@@ -5,7 +5,7 @@ import pytest
 
 pytest.importorskip("ogbench")
 pytest.importorskip("mujoco")
-from companion.recordings import benchmark, mazes  # noqa: E402 (they import OGBench)
+from companion.recordings import benchmark, mazes, pilots, recorded, search  # noqa: E402 (they import OGBench)
 
 EVERY = [*mazes.SIZES]
 SMALL = {"navigate": 2, "stitch": 8}  # episodes
@@ -64,7 +64,7 @@ def test_a_small_data_set_teaches_the_way_that_an_unlearned_agent_does_not_find(
     name = "pointmaze-medium-navigate-v0"
     recording, box = mazes.generate(name, 0, 30), benchmark.in_line(name)
     still = mazes.Recording(*(part[:2] for part in recording))
-    found, lost = (benchmark.solved(benchmark.by_thing(benchmark.watched(watched, box)), box, name, 1, 5)[0].sum()
+    found, lost = (benchmark.solved(pilots.towards_thing(benchmark.watched(watched, box)), box, name, 1, 5)[0].sum()
                    for watched in (recording, still))
     assert found >= 4 > 1 >= lost
 
@@ -92,3 +92,56 @@ def test_boxes_are_in_line_with_the_walls_or_not():
         assert not any(np.allclose(out.within(edges) * n % 1, 0) for n in out.resolutions)
         for moved in (box, out, *(benchmark.in_line(name, offset) for offset in benchmark.OFFSETS)):
             assert moved.within(edges).max() <= 1 and moved.within(edges - mazes.UNIT).min() >= 0
+
+
+def test_what_was_recorded_is_what_was_planned():
+    planned = {job[:5]: job[5] for job in benchmark.plan()}
+    rows = {(row["part"], row["name"], int(row["seed"]), row["pilot"], float(row["offset"])): row
+            for row in recorded.rows_of("benchmark.csv")}
+    assert rows.keys() <= planned.keys() and len(rows) == len(recorded.rows_of("benchmark.csv"))
+    assert all(int(row["episodes"]) == planned[job] for job, row in rows.items())
+    missing = [job for job in planned if job not in rows]
+    assert all(job[0] == "table" and job[2] >= recorded.data_seeds() for job in missing), "a part that was begun"
+
+
+def test_a_row_comes_again_from_its_data(tmp_path, monkeypatch):
+    monkeypatch.setattr(mazes, "SIZES", {EVERY[0]: (20, 200)})
+    mazes.main(tmp_path, "1")
+    jobs = [("table", EVERY[0], 0, pilot, 0.0, 1) for pilot in ("in line", "graph, in line")]
+    monkeypatch.setattr(benchmark, "plan", lambda: jobs)
+    for _ in range(2):  # the second time, nothing is left to do
+        benchmark.main(tmp_path, tmp_path / "rows.csv")
+        rows = (tmp_path / "rows.csv").read_text().splitlines()
+        assert [row.split(",")[1] for row in rows] == ["name", EVERY[0], EVERY[0]]
+    again = benchmark.row_of(tmp_path, *jobs[0])
+    assert rows[1].split(",")[7:9] == [again.successes, str(again.steps)]
+
+
+def test_the_maps_of_the_search_cover_a_maze_at_every_offset_with_primes():
+    for name in EVERY:
+        maze = mazes.environment(name).unwrapped
+        inside = np.array([maze.ij_to_xy(ij) for ij in np.argwhere(maze.maze_map == 0)])
+        for maps in search.MAPS:
+            for offset in (*search.TRIED, *search.FRESH):
+                box = search.box_of(name, maps, offset)
+                assert box.within(inside - 2).min() >= 0 and box.within(inside + 2).max() <= 1
+                if maps != search.IN_LINE[0]:
+                    assert all(map(search.is_prime, box.resolutions))
+                    assert len({*box.resolutions}) == len(search.MAPS[maps])
+                for n, size in zip(box.resolutions, search.MAPS[maps]):
+                    assert box.side / n == pytest.approx(size, rel=0.15)
+
+
+def test_the_rule_of_the_search_takes_the_fewest_maps_among_equals():
+    levels = dict(zip(search.CANDIDATES, (50, 60, 40, 40, 95, 96, 40, 40, 97, 90, 40, 40)))
+    rows = [search.Row(name, offset, *candidate, f"{min(10, level // 10 + offset)} 10 10 10 10")
+            for candidate, level in levels.items() for name in search.COMPARED for offset in search.TRIED]
+    assert search.least(rows, search.CANDIDATES[0], search.COMPARED, search.TRIED) == 90
+    assert search.chosen(rows) == search.CANDIDATES[4]
+
+
+def test_a_lost_pilot_goes_on_as_before():
+    push = search.carrying_on(lambda goal: lambda place: np.array([1.0, 0.0]) * (place[0] < 0.5))((0.9, 0.9))
+    assert push(np.array([0.1, 0.1])).tolist() == [1, 0]
+    lost = push(np.array([0.6, 0.1]))
+    assert lost[0] > 0 and lost[1] != 0

@@ -9,7 +9,8 @@
 4. The control has no values: a graph of the moves between the cells of the finest map, fewest moves first.
 
 ``python -m companion.recordings.mazes DATA 8`` generates the data sets; ``python -m companion.recordings.benchmark DATA
-benchmark.csv`` computes the rows for which it finds data, and goes on where it was interrupted.
+benchmark.csv`` computes the rows for which it finds data, and goes on where it was interrupted; at its end it writes
+``paths.csv`` beside them.
 """
 
 import csv
@@ -22,17 +23,15 @@ from typing import NamedTuple
 import numpy as np
 
 from companion.recordings import mazes
-from companion.recordings.pilots import by_graph
-from neorl import Agent, Desire, Learner, Learning, Node, Scene, modality
+from companion.recordings.pilots import LEARNING, by_graph, pupil, towards_thing
 
-PASSES = 8
 NOISE = 0.3  # standard deviation, of a push of 1
 GOALS = 5  # of each maze
 OFFICIAL, FEWER = 50, 10  # episodes for each goal
 DATA_SEEDS = 8
-LEARNING = Learning(0.02, 0.9, credit="share")
 SQUARES = {"medium": 6, "large": 10, "giant": 14, "teleport": 10}  # inside the outer walls, along the longer side
 OUT_OF_LINE = {"medium": (11, 23), "large": (19, 41), "giant": (25, 51), "teleport": (19, 41)}
+DRAWN, THINNED = "pointmaze-giant-navigate-v0", 4  # the maze of `paths.csv`, and steps of which it has one
 COARSE, FINE = 2.0, 1.0  # units, of cells in line with the walls
 OFFSETS = [k / 4 for k in range(8)]  # units, of the box; after `COARSE` all cells lie as before
 ABLATIONS = {  # what is changed of the agent out of line: fields of its rules, of itself, and how it is steered
@@ -88,29 +87,10 @@ def out_of_line(name):
     return in_line(name)._replace(resolutions=OUT_OF_LINE[name.split("-")[1]])
 
 
-def watched(recording, box, learning=LEARNING, own_cell="silent"):
-    """A `Learner` in a box that has watched a recording, and learns no more."""
-    agent = Agent([Node("PC", modality.PLACE_CELL, box.resolutions)], [Desire("goal", "PC", 1.0)], learning,
-                  own_cell=own_cell)
-    learner = Learner(agent, things=1, kinds=["goal"])
-    places, ends = box.within(recording.positions), recording.ends[:-1]
-    for _ in range(PASSES):
-        learner.watch(places, recording.actions[:-1], ends=ends, progress=False)
-    learner.learns = False
-    return learner
-
-
-def by_thing(learner, steering="vector"):
-    """A pilot by the desire vector of a learner's place cells for a goal in the scene, or by its best action."""
-    def to(goal):
-        def push(place):
-            scene = Scene(place, things=[goal], kinds=["goal"])
-            if steering == "best":
-                q = learner.output("PC", scene).q
-                return np.array(learner.world.actions.pushes[int(q.argmax())]) * q.any()
-            return learner.output("PC", scene, normalised=steering == "vector").desire
-        return push
-    return to
+def watched(recording, box, **rules):
+    """The `pupil` of a recording in a box."""
+    return pupil(box.within(recording.positions), box.resolutions, ends=recording.ends[:-1],
+                 actions=recording.actions[:-1], **rules)
 
 
 def solved(pilot, box, name, episodes, seed, paths=None):
@@ -171,11 +151,25 @@ def row_of(folder, part, name, seed, pilot, offset, episodes):
         to = by_graph(box.within(recording.positions), max(box.resolutions), recording.ends[:-1])
     else:
         learning, rules, steering = ABLATIONS.get(pilot, ABLATIONS["none"])
-        to = by_thing(watched(recording, box, replace(LEARNING, **learning), **rules), steering)
+        to = towards_thing(watched(recording, box, learning=replace(LEARNING, **learning), **rules), steering)
     seconds = time.process_time() - begun
     successes, steps = solved(to, box, name, episodes, seed)
     return Row(part, name, seed, pilot, " ".join(map(str, box.resolutions)), offset, episodes,
                " ".join(map(str, successes)), steps, round(seconds, 2))
+
+
+def write_paths(folder, path):
+    """Write the walls of a maze, and one way to each goal of an agent in line with them."""
+    recording, box, walked = mazes.load(folder, DRAWN, 0), in_line(DRAWN), []
+    solved(towards_thing(watched(recording, box)), box, DRAWN, 1, 0, walked)
+    maze = mazes.environment(DRAWN).unwrapped
+    rows = [("wall", 0, *maze.ij_to_xy(square)) for square in np.argwhere(maze.maze_map == 1).tolist()]
+    for number, (way, goal) in enumerate(walked):
+        thinned = [*way[:-1:THINNED], way[-1]]
+        rows += [("way", number, *place) for place in np.round(thinned, 2).tolist()]
+        rows.append(("goal", number, *np.round(goal, 2).tolist()))
+    with Path(path).open("w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([("kind", "number", "x", "y"), *rows])
 
 
 def main(folder, path):
@@ -196,4 +190,5 @@ def main(folder, path):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main(*sys.argv[1:3])
+    write_paths(sys.argv[1], Path(sys.argv[2]).with_name("paths.csv"))

@@ -2,7 +2,34 @@
 
 import numpy as np
 
-from neorl import Scene
+from neorl import Agent, Desire, Learner, Learning, Node, Scene, modality
+
+PASSES = 8
+LEARNING = Learning(0.02, 0.9, credit="share")
+
+
+def pupil(path, resolutions, *, ends=(), actions=None, learning=LEARNING, own_cell="silent"):
+    """A `Learner` that has watched a path eight times, and learns no more. It desires a thing of the kind "goal"."""
+    agent = Agent([Node("PC", modality.PLACE_CELL, resolutions)], [Desire("goal", "PC", 1.0)], learning,
+                  own_cell=own_cell)
+    learner = Learner(agent, things=1, kinds=["goal"])
+    for _ in range(PASSES):
+        learner.watch(path, actions, ends=ends, progress=False)
+    learner.learns = False
+    return learner
+
+
+def towards_thing(learner, steering="vector"):
+    """A pilot by the desire vector of a `pupil`: scaled, as it is ("unscaled"), or its "best" action alone."""
+    def to(goal):
+        def push(place):
+            scene = Scene(place, things=[goal], kinds=["goal"])
+            if steering == "best":
+                q = learner.output("PC", scene).q
+                return np.array(learner.world.actions.pushes[int(q.argmax())]) * q.any()
+            return learner.output("PC", scene, normalised=steering == "vector").desire
+        return push
+    return to
 
 
 def by_desire(learner):
