@@ -32,7 +32,7 @@ LOST = "alone", "as before"
 CANDIDATES = [(maps, weighting, lost) for maps in MAPS for weighting in WEIGHTINGS for lost in LOST]
 IN_LINE = CANDIDATES[0]
 ROOM = 3.0  # units, by which the box is wider than the maze; the greatest offset
-TRIED, FRESH = range(6), range(100, 108)  # seeds of offsets
+TRIED, FRESH = range(4), range(100, 105)  # seeds of offsets
 EQUAL = 2.0  # percent
 COMPARED = [name for name in mazes.SIZES if "medium" in name or "large" in name]
 
