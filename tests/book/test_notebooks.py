@@ -107,7 +107,7 @@ TRIED = [0, -1, "x", [], [1], [3, 3], None, 0.5, 10**9]
 RIGHT = {"seed": [0, 10**9], "runs": [10**9], "steps": [10**9], "decisions": [10**9], "traffic": [0],
          "sample": [0], "recursion": [0, -1, 0.5], "place_gain": [0, 0.5], "bonus": [0, 0.5], "begin": [0.5],
          "learning_rate": [0.5], "exploration": [0, 0.5], "keep": ["x"], "layers": [[1]], "counts": [[1]],
-         "stays": [[1]]}
+         "stays": [[1]], "episodes": [0, 10**9]}
 RIGHT_ON = {("paper_c", "resolutions"): [[], [1]], **{(page, "resolutions"): [[1]] for page in (
     "beyond_agents", "chapter_4", "paper_a", "paper_b", "recordings", "your_research")}}
 

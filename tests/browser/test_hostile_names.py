@@ -124,6 +124,7 @@ CONSTANTS = {
     "book/explorer.md": ["?.insertAdjacentHTML("],
     "notebooks/companion/chapter_4/changes.js": ["this.root = elementOf(MARKUP);"],
     "notebooks/companion/chapter_5/turn.js": ["this.root = elementOf(MARKUP);"],
+    "notebooks/companion/recordings/steering.js": ["this.root = elementOf(MARKUP);"],
     "notebooks/companion/shared/replay.js": ["this.root = elementOf(MARKUP);", "const tank = elementOf(TANK);"]}
 
 

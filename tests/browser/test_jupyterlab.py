@@ -26,7 +26,7 @@ neorl.Explorer(neorl.Condition(neorl.place_cells([3]), neorl.WaterWorld(n_creeps
 NOTEBOOKS = ["one.ipynb", "other.ipynb"]
 LIVING = {page: cells for page in sorted(path.stem for path in PAGES.glob("*.ipynb"))  # the cells of living figures
           if (cells := [cell for cell, source in code(notebook(page)).items()
-                        if re.search(r"\b(Explorer|Turn|Replay|Changes)\(", source)])}
+                        if re.search(r"\b(Explorer|Turn|Replay|Changes|of_rat)\(", source)])}
 TRIED = ("chapter_1", "paper_a", "paper_b", "paper_c")  # the others are tried by `make pages`
 BEFORE = ".legend", "before"  # the curve of the last run stays beside the next one's
 ANSWERS = [  # a control of a living figure, what a reader does to it, and where the figure then says what
@@ -35,6 +35,7 @@ ANSWERS = [  # a control of a living figure, what a reader does to it, and where
     (".only [type=range]", lambda slider: slider.fill("0.5"), *BEFORE),
     ("[name=time]", lambda slider: slider.fill("25"), "output", re.compile("^(1.0 s|0:[0-5]?[1-9])")),
     ("[data-more]", Locator.click, "caption", "From column"),
+    ("button.interest", lambda goal: goal.press("ArrowLeft"), ".said", "(0.48, 0.50)"),
     ("[name=preset]", lambda menu: menu.select_option("Vessel with a radar"), ".aims", "vessel"),
     ("[type=checkbox]", Locator.uncheck, *BEFORE)]
 FAR = ["\n\n".join(["below"] * 40)] * 5

@@ -5,7 +5,7 @@ import pytest
 
 pytest.importorskip("ogbench")
 pytest.importorskip("mujoco")
-from companion.recordings import benchmark, mazes, pilots, recorded, search  # noqa: E402 (they import OGBench)
+from companion.recordings import benchmark, choosing, mazes, pilots, search  # noqa: E402 (they import OGBench)
 
 EVERY = [*mazes.SIZES]
 SMALL = {"navigate": 2, "stitch": 8}  # episodes
@@ -94,16 +94,6 @@ def test_boxes_are_in_line_with_the_walls_or_not():
             assert moved.within(edges).max() <= 1 and moved.within(edges - mazes.UNIT).min() >= 0
 
 
-def test_what_was_recorded_is_what_was_planned():
-    planned = {job[:5]: job[5] for job in benchmark.plan()}
-    rows = {(row["part"], row["name"], int(row["seed"]), row["pilot"], float(row["offset"])): row
-            for row in recorded.rows_of("benchmark.csv")}
-    assert rows.keys() <= planned.keys() and len(rows) == len(recorded.rows_of("benchmark.csv"))
-    assert all(int(row["episodes"]) == planned[job] for job, row in rows.items())
-    missing = [job for job in planned if job not in rows]
-    assert all(job[0] == "table" and job[2] >= recorded.data_seeds() for job in missing), "a part that was begun"
-
-
 def test_a_row_comes_again_from_its_data(tmp_path, monkeypatch):
     monkeypatch.setattr(mazes, "SIZES", {EVERY[0]: (20, 200)})
     mazes.main(tmp_path, "1")
@@ -121,23 +111,15 @@ def test_the_maps_of_the_search_cover_a_maze_at_every_offset_with_primes():
     for name in EVERY:
         maze = mazes.environment(name).unwrapped
         inside = np.array([maze.ij_to_xy(ij) for ij in np.argwhere(maze.maze_map == 0)])
-        for maps in search.MAPS:
-            for offset in (*search.TRIED, *search.FRESH):
+        for maps in choosing.MAPS:
+            for offset in (*choosing.TRIED, *choosing.FRESH):
                 box = search.box_of(name, maps, offset)
                 assert box.within(inside - 2).min() >= 0 and box.within(inside + 2).max() <= 1
-                if maps != search.IN_LINE[0]:
+                if maps != choosing.PLAIN[0]:
                     assert all(map(search.is_prime, box.resolutions))
-                    assert len({*box.resolutions}) == len(search.MAPS[maps])
-                for n, size in zip(box.resolutions, search.MAPS[maps]):
+                    assert len({*box.resolutions}) == len(choosing.MAPS[maps])
+                for n, size in zip(box.resolutions, choosing.MAPS[maps]):
                     assert box.side / n == pytest.approx(size, rel=0.15)
-
-
-def test_the_rule_of_the_search_takes_the_fewest_maps_among_equals():
-    levels = dict(zip(search.CANDIDATES, (50, 60, 40, 40, 95, 96, 40, 40, 97, 90, 40, 40)))
-    rows = [search.Row(name, offset, *candidate, f"{min(10, level // 10 + offset)} 10 10 10 10")
-            for candidate, level in levels.items() for name in search.COMPARED for offset in search.TRIED]
-    assert search.least(rows, search.CANDIDATES[0], search.COMPARED, search.TRIED) == 90
-    assert search.chosen(rows) == search.CANDIDATES[4]
 
 
 def test_a_lost_pilot_goes_on_as_before():

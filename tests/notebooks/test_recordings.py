@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from companion.recordings import pilots
+from companion.recordings import choosing, pilots
 from page_cells import executed
 
 pytest.importorskip("ratinabox")
@@ -99,3 +99,23 @@ def test_what_is_read_from_a_file_is_what_was_written(page):
         np.testing.assert_allclose(pupils[name].memory.q, learner.memory.q, atol=1e-6, err_msg=name)
         assert pupils[name].q(0).any()
     assert not np.array_equal(pupils["nwb"].memory.q, pupils["dlc"].memory.q)
+
+
+def test_the_page_builds_the_pupil_that_the_benchmark_and_the_figure_use(page):
+    shown = page.pupil(page.path, page.missing)((0.7, 0.3))
+    used = pilots.towards_thing(pilots.pupil(page.path, page.resolutions, ends=page.missing))((0.7, 0.3))
+    for place in np.random.default_rng(0).random((20, 2)):
+        assert shown(place).tolist() == used(place).tolist()
+
+
+def test_the_rule_of_the_search_takes_the_fewest_maps_among_equals():
+    levels = dict(zip(choosing.CANDIDATES, (50, 60, 40, 40, 95, 96, 40, 40, 97, 90, 40, 40)))
+    rows = [choosing.Row(f"pointmaze-{maze}-stitch-v0", offset, *candidate,
+                         f"{min(10, level // 10 + offset)} 10 10 10 10")
+            for candidate, level in levels.items() for maze in choosing.COMPARED
+            for offset in choosing.TRIED]
+    assert min(choosing.successes(rows, choosing.CANDIDATES[0], choosing.TRIED)) == 90
+    assert choosing.chosen(rows) == choosing.CANDIDATES[4]
+    lucky = choosing.CANDIDATES[2]
+    giant = [choosing.Row("pointmaze-giant-stitch-v0", offset, *lucky, "10 10 10 10 10") for offset in choosing.TRIED]
+    assert choosing.chosen(rows + giant) == choosing.CANDIDATES[4], "giant takes no part"

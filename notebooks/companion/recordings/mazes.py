@@ -17,9 +17,12 @@ from types import SimpleNamespace
 from typing import NamedTuple
 
 import gymnasium
-import mujoco
 import numpy as np
-from ogbench.locomaze import point
+
+from neorl.common.extras import require
+
+mujoco = require("mujoco", extra="mazes")
+point = require("ogbench.locomaze.point", extra="mazes")
 
 SIZES = {  # episodes, and steps of each
     "pointmaze-medium-navigate-v0": (1000, 1001),
