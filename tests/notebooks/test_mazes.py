@@ -5,7 +5,7 @@ import pytest
 
 pytest.importorskip("ogbench")
 pytest.importorskip("mujoco")
-from companion.recordings import benchmark, choosing, mazes, pilots, search  # noqa: E402 (they import OGBench)
+from companion.recordings import benchmark, choosing, mazes, pilots, recorded, search  # noqa: E402 (they import OGBench)
 
 EVERY = [*mazes.SIZES]
 SMALL = {"navigate": 2, "stitch": 8}  # episodes
@@ -92,6 +92,16 @@ def test_boxes_are_in_line_with_the_walls_or_not():
         assert not any(np.allclose(out.within(edges) * n % 1, 0) for n in out.resolutions)
         for moved in (box, out, *(benchmark.in_line(name, offset) for offset in benchmark.OFFSETS)):
             assert moved.within(edges).max() <= 1 and moved.within(edges - mazes.UNIT).min() >= 0
+
+
+def test_what_was_recorded_is_what_was_planned():
+    planned = {job[:5]: job[5] for job in benchmark.plan()}
+    rows = {(row["part"], row["name"], int(row["seed"]), row["pilot"], float(row["offset"])): row
+            for row in recorded.rows_of("benchmark.csv")}
+    assert rows.keys() <= planned.keys() and len(rows) == len(recorded.rows_of("benchmark.csv"))
+    assert all(int(row["episodes"]) == planned[job] for job, row in rows.items())
+    missing = [job for job in planned if job not in rows]
+    assert all(job[0] == "table" and job[2] >= recorded.data_seeds() for job in missing), "a part that was begun"
 
 
 def test_a_row_comes_again_from_its_data(tmp_path, monkeypatch):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from companion.recordings import choosing, pilots
+from companion.recordings import choosing, pilots, recorded
 from page_cells import executed
 
 pytest.importorskip("ratinabox")
@@ -106,6 +106,24 @@ def test_the_page_builds_the_pupil_that_the_benchmark_and_the_figure_use(page):
     used = pilots.towards_thing(pilots.pupil(page.path, page.resolutions, ends=page.missing))((0.7, 0.3))
     for place in np.random.default_rng(0).random((20, 2)):
         assert shown(place).tolist() == used(place).tolist()
+
+
+def test_recorded_successes_are_shares_of_all_episodes():
+    assert recorded.success({"successes": "50 25 0 50 0", "episodes": "50"}) == 50
+    assert recorded.spread([80.0]) == "80" and recorded.spread([80.0, 90.0, 100.0]) == "90 ± 10"
+    for row in recorded.table():
+        assert len(row) == 2 + len(recorded.PILOTS)
+    assert {row["name"] for row in recorded.rows_of("published.csv")} == {*recorded.names()}
+    assert {row["seed"] for row in recorded.rows_of("benchmark.csv") if row["part"] == "table"} == {
+        str(seed) for seed in range(recorded.data_seeds())}
+    assert len(recorded.offset_rows(recorded.scans())) == len(recorded.names("offsets")) == 6
+
+
+def test_recorded_ways_keep_off_the_walls_and_end_at_their_goals():
+    walls, found = recorded.maze_ways()
+    assert recorded.arrivals_in_words(found) == "5 of 5 arrive."
+    for way, _ in found:
+        assert np.abs(way[:, np.newaxis] - walls).max(axis=2).min() >= 2
 
 
 def test_the_rule_of_the_search_takes_the_fewest_maps_among_equals():

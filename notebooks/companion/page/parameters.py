@@ -62,7 +62,7 @@ RULES = {
     "stays": partial(_list, each=_whole(1, 1_000)), "n_creeps": _whole(1, MOST_CREEPS),
     "place_gain": _number(0, 100), "recursion": _number(-100, 100), "learning_rate": _number(1e-3, 1),
     "exploration": _number(0, 1), "memory": _whole(1, 8), "bonus": _number(0, 10), "begin": _number(0.1, 0.9),
-    "traffic": _whole(0, 64), "decisions": _whole(200), "sample": _whole(0, 100),
+    "traffic": _whole(0, 64), "decisions": _whole(200), "sample": _whole(0, 100), "episodes": _whole(0),
     "keep": _file,
 }
 
