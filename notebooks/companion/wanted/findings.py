@@ -82,7 +82,7 @@ def shown(reading, wanted, lesson, path=SHIPPED):
 
 
 def conclusion(reading, path=SHIPPED):
-    """What all predictions on streams without fear show together, in words.
+    """What all predictions on streams without fear show together: those that teach too little, those that overwrite.
 
     A stream teaches too little if no rule learns from it, whole or in part; it overwrites if partners lose in it what
     they had known before.
@@ -95,21 +95,16 @@ def conclusion(reading, path=SHIPPED):
 
 def answer():
     """The recorded answer of the page, as HTML: what agents know, and why."""
-    return recorded.shown(f"{answers.answer('wanted')} Yoked partners tell why. {why('calibrated')} "
-                          f"{turned('calibrated')} {why('letter')}",
+    return recorded.shown(f"{answers.answer('wanted')} {why()} {turned('calibrated')}",
                           {"": recorded.SHOWN["wanted"]})
 
 
-def why(reading, path=SHIPPED):
-    """Stream or overwriting, in a sentence for a reading."""
-    too_little, overwritten = conclusion(reading, path)
-    return (f"{NAMES[reading].capitalize()}, {_streams(too_little)} without fear teach too little, by each rule tried, "
-            f"and {_streams(overwritten)} overwrite most of what ten minutes of random motion had taught.")
-
-
-def _streams(names):
-    many = "all" if len(names) == len(NARROW) else f"{len(names) or 'none'} of the"
-    return f"{many} {len(NARROW)} streams"
+def why(path=SHIPPED):
+    """Stream or overwriting, in a sentence."""
+    (narrow, lost), (narrow_too, lost_too) = (map(len, conclusion(reading, path)) for reading in NAMES)
+    return (f"Yoked partners tell why: of {len(NARROW)} streams without fear, {narrow} teach too little by any rule "
+            f"tried ({narrow_too} to the letter), and {lost} overwrite most of what was known ({lost_too} to the "
+            "letter).")
 
 
 def predictions(reading, path=SHIPPED):
@@ -207,7 +202,7 @@ def hours_of(reading, task, path=ten_hours.SHIPPED):
 def hours(reading, path=ten_hours.SHIPPED):
     """Ten hours in the recorded ways, as a Markdown table for each task."""
     return "\n\n".join(table(
-        [f"{TASKS[task].capitalize()}", "Discs a minute" if task == "turned" else "Points a second",
+        [f"{TASKS[task].capitalize()}", "Discs a minute, learning" if task == "turned" else "Points a second, learning",
          "Known after ten hours", "Lowest mean of all pieces", f"Keeps {KEPT}, and earns no less than today"],
         [[way, in_words(each.paid), in_words(each.known), f"{each.lowest:.0f}", "yes" if each.is_kept else "no"]
          for way, each in hours_of(reading, task, path).items()]) for task in TASKS)
@@ -229,7 +224,7 @@ def turned(reading):
     ways = hours_of(reading, "turned")
     best = max((way for way in ways if "trail" in way), key=lambda way: ways[way].lowest)
     return (f"Agents that come to want both and learn on know {ways['today'].known.value:.0f} discs a minute after ten "
-            f"hours, and {ways[best].known.value:.0f} if they also fear the place where they have just been ({best}).")
+            f"hours, and {ways[best].known.value:.0f} if they also fear where they have just been ({best}).")
 
 
 def _named(way):
