@@ -110,7 +110,7 @@ def test_the_page_builds_the_pupil_that_the_benchmark_and_the_figure_use(page):
 
 def test_recorded_successes_are_shares_of_all_episodes():
     assert recorded.success({"successes": "50 25 0 50 0", "episodes": "50"}) == 50
-    assert recorded.spread([80.0]) == "80" and recorded.spread([80.0, 90.0, 100.0]) == "90 ± 10"
+    assert recorded.spread([80.0]) == "80" and recorded.spread([80.0, 90.0, 100.0]) == "90\u00a0±\u00a010"
     for row in recorded.table():
         assert len(row) == 2 + len(recorded.PILOTS)
     assert {row["name"] for row in recorded.rows_of("published.csv")} == {*recorded.names()}
@@ -137,3 +137,14 @@ def test_the_rule_of_the_search_takes_the_fewest_maps_among_equals():
     lucky = choosing.CANDIDATES[2]
     giant = [choosing.Row("pointmaze-giant-stitch-v0", offset, *lucky, "10 10 10 10 10") for offset in choosing.TRIED]
     assert choosing.chosen(rows + giant) == choosing.CANDIDATES[4], "giant takes no part"
+
+
+def test_the_search_is_whole_and_its_words_say_whether_it_reached_what_was_wanted():
+    rows, finalists = choosing.read(), {choosing.chosen(choosing.read()), choosing.PLAIN}
+    compared = [name for name in recorded.names() if name.split("-")[1] in choosing.COMPARED]
+    planned = [(compared, choosing.TRIED, choosing.CANDIDATES), (recorded.names(), choosing.FRESH, finalists)]
+    assert {row[:5] for row in rows} == {(name, offset, *candidate) for names, offsets, candidates in planned
+                                         for name in names for offset in offsets for candidate in candidates}
+    assert len(recorded.search_rows()) == len(choosing.CANDIDATES) and len(recorded.fresh_rows()) == 8
+    least = min(int(row[1]) for row in recorded.fresh_rows() if "teleport" not in row[0])
+    assert f"is {least} %, {'above' if least > 95 else 'not above'} the 95 %" in recorded.search_in_words()

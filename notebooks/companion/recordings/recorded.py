@@ -60,12 +60,12 @@ def short(name):
 def spread(sample):
     """A mean and its standard deviation over data seeds, if there are two or more."""
     mean = f"{np.mean(sample):.0f}"
-    return f"{mean} ± {np.std(sample, ddof=1):.0f}" if len(sample) > 1 else mean
+    return f"{mean}\u00a0±\u00a0{np.std(sample, ddof=1):.0f}" if len(sample) > 1 else mean
 
 
 def table():
     """The rows of the table of data sets: the published best, then each pilot."""
-    published = {row["name"]: f"{row['mean']} ± {row['deviation']}" for row in rows_of("published.csv")}
+    published = {row["name"]: f"{row['mean']}\u00a0±\u00a0{row['deviation']}" for row in rows_of("published.csv")}
     return [[short(name), published[name], *(spread(successes("table", name, pilot)) for pilot in PILOTS)]
             for name in names()]
 
