@@ -177,6 +177,15 @@ def test_the_living_figures_of_chapters_run_and_the_pages_hold_no_module_twice(o
     assert '"_wasm"' not in page.content()
 
 
+def test_the_goal_of_an_agent_that_watched_a_rat_can_be_moved(open_page):
+    page = open_page(HTML, "chapters/recordings.html")
+    figure = page.locator(".neorl-steering")
+    figure.scroll_into_view_if_needed()
+    figure.get_by_role("button").press("ArrowLeft")
+    expect(figure.get_by_role("status")).to_contain_text("(0.48, 0.50)")
+    assert '"_wasm"' not in page.content()
+
+
 @pytest.mark.parametrize("chapter", range(1, 6))
 def test_a_term_leads_to_the_glossary_and_from_there_to_the_function(open_page, chapter):
     page = open_page(HTML, f"chapters/chapter_{chapter}.html")
