@@ -32,7 +32,7 @@ def rows_of(name):
 
 def success(row):
     """The success of a row in percent."""
-    return 100 * np.mean([int(each) for each in row["successes"].split()]) / int(row["episodes"])
+    return 100 * np.mean([int(count) for count in row["successes"].split()]) / int(row["episodes"])
 
 
 def successes(part, name, pilot):
@@ -79,12 +79,12 @@ def seconds():
 
 def scans():
     """Success against the offset of the box, {data set: {pilot: (offsets in units, successes in percent)}}."""
-    found = {}
+    points = {}
     for row in rows_of("benchmark.csv"):
         if row["part"] == "offsets":
             pilot = "graph" if "graph" in row["pilot"] else "agent"
-            found.setdefault(short(row["name"]), {}).setdefault(pilot, []).append((float(row["offset"]), success(row)))
-    return {name: {pilot: np.transpose(points) for pilot, points in pilots.items()} for name, pilots in found.items()}
+            points.setdefault(short(row["name"]), {}).setdefault(pilot, []).append((float(row["offset"]), success(row)))
+    return {name: {pilot: np.transpose(pairs) for pilot, pairs in pilots.items()} for name, pilots in points.items()}
 
 
 def offset_rows(scanned):
@@ -104,9 +104,9 @@ def ablation_rows():
     changed = dict.fromkeys(row["pilot"] for row in rows_of("benchmark.csv") if row["part"] == "ablations")
     rows = []
     for choice in changed:
-        each = {name: successes("ablations", name, choice)[0] for name in names("ablations")}
-        worst = min(each, key=each.get)
-        rows.append([choice, f"{np.mean(list(each.values())):.0f}", f"{each[worst]:.0f}", short(worst)])
+        by_name = {name: successes("ablations", name, choice)[0] for name in names("ablations")}
+        worst = min(by_name, key=by_name.get)
+        rows.append([choice, f"{np.mean(list(by_name.values())):.0f}", f"{by_name[worst]:.0f}", short(worst)])
     return rows
 
 
@@ -122,8 +122,8 @@ def search_rows():
     """A row for each candidate of the search: its fields, the least success and the mean, and whether it was chosen."""
     rows, rows_of_search = [], choosing.read()
     for candidate in choosing.CANDIDATES:
-        found = choosing.successes(rows_of_search, candidate, choosing.TRIED)
-        rows.append([*candidate, f"{min(found):.0f}", f"{np.mean(found):.0f}",
+        sample = choosing.successes(rows_of_search, candidate, choosing.TRIED)
+        rows.append([*candidate, f"{min(sample):.0f}", f"{np.mean(sample):.0f}",
                      "chosen" if candidate == choosing.chosen(rows_of_search) else ""])
     return rows
 
@@ -131,10 +131,10 @@ def search_rows():
 def fresh_rows():
     """A row for each data set: the least success and the mean at fresh offsets, of what was chosen and of the pair."""
     rows = choosing.read()
-    found = {name: [choosing.successes(rows, candidate, choosing.FRESH, [name])
-                    for candidate in (choosing.chosen(rows), choosing.PLAIN)] for name in names()}
+    samples_of = {name: [choosing.successes(rows, candidate, choosing.FRESH, [name])
+                         for candidate in (choosing.chosen(rows), choosing.PLAIN)] for name in names()}
     return [[short(name), *(f"{statistic(sample):.0f}" for sample in samples for statistic in (np.min, np.mean))]
-            for name, samples in found.items()]
+            for name, samples in samples_of.items()]
 
 
 def search_in_words():
