@@ -91,7 +91,7 @@ RARE = (loop.begin, waterworld.reset, waterworld.draw_creep, arena.reset, arm.re
         vessel.reset, vessel.draw_thing, derived.cut_axes, derived.list_desires, contacts.begin_contacts)
 EVERY_STEP = loop.act, loop.observe, displacement.observe_self
 # Optimised for speed, but not inlined.
-APART = (contacts.observe_contacts, contacts.evaluate_contacts, displacement.learn_displacement)
+APART = (contacts.see, contacts.observe_contacts, contacts.evaluate_contacts, displacement.learn_displacement)
 SHIPPED = {name: resources.files(__package__) / f"{name}.wasm" for name in MODULES}  # in a wheel
 OURS = [f"browser.{name}" for name in ("seeding", "wasm", "worlds")]  # modules that take part, besides those of a run
 BYTES_OF_A_BUILD = 750 * 2**20
@@ -262,7 +262,7 @@ def _build(name):
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
     for kernel in RARE + APART:
-        kernel.dispatcher.targetoptions.pop("forceinline", None)
+        kernel.dispatcher.targetoptions["forceinline"] = False  # instead of the caller's, which numba would take over
     for kernel in EVERY_STEP:
         kernel.dispatcher.targetoptions["forceinline"] = True
     target = llvm.Target.from_triple(TRIPLE).create_target_machine(features="+simd128,+bulk-memory", opt=3)

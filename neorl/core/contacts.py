@@ -78,9 +78,10 @@ def mirror(agent, node):
     return frame
 
 
-@inlined_kernel
-def seen_cells(agent, memory, node):
-    """Find the cell of agent.coordinates in every map of a node, into agent.seen; return the frame."""
+@kernel
+def see(agent, memory, scene, user, node, point, from_offset):
+    """Find the cell of a point in every map of a node, into agent.seen; return the frame. See `geometry.locate`."""
+    locate(agent, memory, scene, user, node, point, from_offset)
     frame = mirror(agent, node) if node.mirrored else 0
     for m in range(node.first_map, node.end_map):
         agent.seen[m] = cell_of(memory, node, agent.maps[m], agent.coordinates)
@@ -113,8 +114,7 @@ def see_after(agent, memory, scene, user, node, point, action, from_offset):
     """Find the cells of a point once the push of an action is given, into agent.seen."""
     for axis in range(agent.here.shape[0]):
         agent.efferent[axis] = agent.contacts.efference * agent.push[action, axis]
-    locate(agent, memory, scene, user, node, point, from_offset)
-    seen_cells(agent, memory, node)
+    see(agent, memory, scene, user, node, point, from_offset)
     for axis in range(agent.here.shape[0]):
         agent.efferent[axis] = 0.0
 
@@ -164,8 +164,8 @@ def begin_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFuncti
     for action in range(agent.contacts.after_states):
         see_after(agent, memory, scene, user, node, point, action, False)
         follow_after(agent, memory, node, point, action)
-    locate(agent, memory, scene, user, node, point, False)
-    follow(agent, memory, node, point, seen_cells(agent, memory, node), scene.kinds[point] < 0)
+    frame = see(agent, memory, scene, user, node, point, False)
+    follow(agent, memory, node, point, frame, scene.kinds[point] < 0)
     forget_left(agent, memory, node, point)
 
 
@@ -181,8 +181,7 @@ def observe_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFunc
     # The outcome: 1 for a contact, else γ max_a approach(s⁺, a) and γ min_a fear(s⁺, a).
     frame, approach, fear = 0, 0.0, np.inf
     if not of_after_states:
-        locate(agent, memory, scene, user, node, point, False)
-        frame = seen_cells(agent, memory, node)
+        frame = see(agent, memory, scene, user, node, point, False)
     for action in range(agent.rates.shape[0]):
         if of_after_states:
             see_after(agent, memory, scene, user, node, point, action, False)
@@ -262,8 +261,7 @@ def look_ahead(agent, memory, scene, user, node, point, action, from_offset, val
         for later in range(agent.rates.shape[0]):
             for axis in range(axes):
                 agent.efferent[axis] = contacts.efference * (agent.push[action, axis] + agent.push[later, axis])
-            locate(agent, memory, scene, user, node, point, from_offset)
-            seen_cells(agent, memory, node)
+            see(agent, memory, scene, user, node, point, from_offset)
             best = max(best, blended(agent, memory, node, 0, np.uint64(APPROACH)))
         value += worth * best
     for axis in range(axes):
@@ -299,8 +297,7 @@ def evaluate_contacts(agent: Record, memory: Memory, scene: Scene, user: UserFun
                 for axis in range(axes):
                     agent.offset[axis] = (desire.target_at[axis] if desire.source == Source.node else
                                           desire.place[axis] - agent.here[axis])
-                locate(agent, memory, scene, user, node, 0, True)
-                frame = seen_cells(agent, memory, node)
+                frame = see(agent, memory, scene, user, node, 0, True)
             desire.total_valence += worth
             which = np.uint64(FEAR) if worth < 0.0 and contacts.flees else np.uint64(APPROACH)
             highest = -1.0

@@ -45,7 +45,7 @@ def derive(agent: Record, memory: Memory, n_things: int) -> None:
             nres.first_trace, nres.first_passed = trace, passed
             cut += int(node.axes)
             value += nres.events * nres.cells * nres.goals
-            cell += nres.cells
+            cell += 0 if node.learns_contacts else nres.cells
             t += node.points
             trace += node.points * nres.cells if remembers else 0
             passed += node.points * nres.passed

@@ -66,8 +66,8 @@ MAP = record_of(
     ("contact", INT),  # the first cell at distance 0
     ("followed", INT),  # number of cells along the axes of the vector that the node follows
     ("weight", REAL),
-    ("first_cut", INDEX), ("first_value", INT), ("end_value", INT), ("first_cell", INT), ("end_cell", INT),
-    ("first_track", INT), ("end_track", INT),
+    ("first_cut", INDEX), ("first_value", INT), ("end_value", INT), ("first_track", INT), ("end_track", INT),
+    ("first_cell", INT), ("end_cell", INT),  # none of a map of contacts, whose cells have no range of goals
     ("first_trace", INT), ("end_trace", INT),  # its tracks' memory, which holds all cells
     ("passed", INT),  # the most places that a track of the self remembers
     ("first_passed", INT), ("end_passed", INT))  # its tracks' passed places
