@@ -80,7 +80,7 @@ def sentence():
     better = [f"{idea} among {creeps} creeps" for creeps in (3, 8) for idea in IDEAS
               if estimate(difference, _last(f"all but {idea}", creeps), _last(ALL, creeps)).low > 0]
     return (f"Among 3 creeps {'; '.join(reached)}; {WITHOUT} earn {estimate(np.mean, _last(WITHOUT, 3))}. The whole "
-            f"loses most without {needed}" + (f", and earns more without {enumerated(better)}" if better else ""))
+            f"loses most without {needed}" + (f", and earns more without {enumerated(better)}" if better else "") + ".")
 
 
 def _reached(name, earned):
