@@ -10,7 +10,7 @@
    the first in the order of `CANDIDATES`.
 3. The chosen one, and `PLAIN` beside it, are then run on all eight sets at `FRESH` other offsets.
 
-This was fixed before giant or teleport were looked at; `companion.recordings.search` computes `search.csv` by it.
+This was fixed before giant or teleport were looked at; `search.py` computes `search.csv` by it.
 """
 
 import csv
