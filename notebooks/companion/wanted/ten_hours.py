@@ -10,7 +10,7 @@
 3. Ways were searched in `SEARCH_RUNS` runs from `SEARCH_SEED`. What was tried before is not recorded: for 100 minutes
    after the turn, in two runs from 762,500, fears of .3 to 4 seconds and valences of 1 to 8, some with ε of .05 to .2;
    and an element of interest of valence 1, 3 and 10 at the cell of 5 × 5 that had been visited least, which did not
-   help.
+   help. The same fears of a second were tried to the letter, and under the desire of the papers.
 4. The ways in `REPORTED` are recorded from a seed that no search had. To the letter, three ways of *kept* were
    added later: "trail −1" when four runs of the others had been seen, after trails of −.3, −.5 and −1 in two runs from
    762,700; and, since it did not keep what was known, slower learning and times without desire when all runs of the
