@@ -95,16 +95,15 @@ def conclusion(reading, path=SHIPPED):
 
 def answer():
     """The recorded answer of the page, as HTML: what agents know, and why."""
-    return recorded.shown(f"{answers.answer('wanted')} {why()} {turned('calibrated')}",
+    return recorded.shown(f"{answers.answer('wanted')} Yoked partners tell why: {why()}. {turned('calibrated')}",
                           {"": recorded.SHOWN["wanted"]})
 
 
-def why(path=SHIPPED):
+def why(reading="calibrated", path=SHIPPED):
     """Stream or overwriting, in a sentence."""
-    (narrow, lost), (narrow_too, lost_too) = (map(len, conclusion(reading, path)) for reading in NAMES)
-    return (f"Yoked partners tell why: of {len(NARROW)} streams without fear, {narrow} teach too little by any rule "
-            f"tried ({narrow_too} to the letter), and {lost} overwrite most of what was known ({lost_too} to the "
-            "letter).")
+    narrow, lost = map(len, conclusion(reading, path))
+    return (f"of {len(NARROW)} streams without fear, {narrow} teach too little by any rule tried, and {lost} overwrite "
+            "most of what was known")
 
 
 def predictions(reading, path=SHIPPED):
@@ -222,9 +221,10 @@ def mended(reading):
 def turned(reading):
     """What agents know that learn on after their desire has turned, with and without a trail, in a sentence."""
     ways = hours_of(reading, "turned")
-    best = max((way for way in ways if "trail" in way), key=lambda way: ways[way].lowest)
-    return (f"Agents that come to want both and learn on know {ways['today'].known.value:.0f} discs a minute after ten "
-            f"hours, and {ways[best].known.value:.0f} if they also fear where they have just been ({best}).")
+    best = max((each for way, each in ways.items() if "trail" in way), key=lambda each: each.lowest)
+    today, mended = (each.known.value for each in (ways["today"], best))
+    return (f"Agents that come to want both, and learn on for ten hours, can then catch {today:.0f} discs a minute; "
+            f"those that also fear where they have just been, {mended:.0f}.")
 
 
 def _named(way):
