@@ -104,29 +104,29 @@ class Game {
     if (round !== this.round) return; // it has failed
     const { game: [first, second] } = this.data;
     const request = { type: "begin", world: this.data.world, seed: board, run: 0, steps, bin_steps: steps / 2, map: "",
-      heat: 0, field: 0, keeps: true, parameters: first, changes: [{ step: steps / 2, parameters: second }] };
-    round.frames = await Promise.all(this.engines.map((engine) => engine.ask(request)));
+      heat: 0, field: 0, parameters: first, changes: [{ step: steps / 2, parameters: second }] };
+    const [its, mine] = this.engines;
+    round.frames = await Promise.all([its.ask({ ...request, keeps: true }), mine.ask(request)]);
     this.show("ready");
+    this.draw();
     this.mine.focus({ preventScroll: true });
     for (let seconds = COUNTDOWN; seconds > 0; seconds -= 1) {
       this.say(`${seconds} …`);
-      this.draw();
       await new Promise((resolve) => setTimeout(resolve, 1000));
     }
+    if (round !== this.round) return;
     this.say("");
     this.show("running");
     this.wake();
   }
 
-  /** Let the agent have its lesson, once; the reader's tank begins without one. */
+  /** Let the agent have its lesson, once. */
   async teach() {
     if (this.hasLearned) return;
-    const { engines: [its, mine], data: { world, lesson, lesson_seed: seed, parameters } } = this;
+    const { engines: [its], data: { world, lesson, lesson_seed: seed, parameters } } = this;
     this.show("learning");
-    const common = { type: "begin", world, seed, run: 0, steps: lesson, bin_steps: lesson, map: "", heat: 0, field: 0,
-      parameters };
-    await mine.ask({ ...common, parameters: this.data.game[0] });
-    await its.ask(common);
+    await its.ask({ type: "begin", world, seed, run: 0, steps: lesson, bin_steps: lesson, map: "", heat: 0, field: 0,
+      parameters });
     for (let frame = {}; !frame.ended;) {
       frame = await its.ask({ type: "advance", steps: lesson, budget: 24 });
       this.say(`The agent has its lesson: minute ${Math.floor(minutesOf(frame.step, world))} of `
