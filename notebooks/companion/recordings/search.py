@@ -14,7 +14,7 @@ import numpy as np
 from companion.recordings import benchmark, mazes
 from companion.recordings.choosing import (CANDIDATES, COMPARED, FRESH, LOST, MAPS, PLAIN, ROOM, TRIED, Row, chosen,
                                            read)
-from companion.recordings.pilots import pupil, towards_thing
+from companion.recordings.pilots import towards_thing
 
 
 def is_prime(number):
@@ -54,8 +54,7 @@ def carrying_on(pilot):
 def learner_of(folder, name, maps, offset):
     """The `pupil` of the first data seed at an offset, and its box."""
     recording, box = mazes.load(folder, name, 0), box_of(name, maps, offset)
-    return pupil(box.within(recording.positions), box.resolutions, ends=recording.ends[:-1],
-                 actions=recording.actions[:-1]), box
+    return benchmark.watched(recording, box), box
 
 
 def row_of(folder, name, offset, maps, weighting, lost):

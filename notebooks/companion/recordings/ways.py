@@ -14,7 +14,7 @@ import numpy as np
 import ratinabox
 
 from companion.page.wording import number
-from neorl.statistics import estimate
+from neorl.statistics import FEWEST_RUNS, estimate
 
 SECONDS = 0.1  # per step of a walker, and of a simulated animal
 SPEED = 0.2  # metres per second
@@ -23,7 +23,6 @@ NEAR = 0.05  # metres from the goal
 NOISE = 0.3  # standard deviation, of a push of 1
 CLEAR = 1.1  # steps ahead, that must be free: RatInABox sees no wall that a step ends or begins on
 LOST = 0.1  # seconds without a frame that end a stretch
-FEWEST = 10  # ways that have an interval
 MINUTE = 60.0
 
 
@@ -113,4 +112,4 @@ def shown(statistic, sample):
     """A statistic of ways as a text, with its interval if there are enough of them."""
     if len(sample) == 0:
         return "–"
-    return str(estimate(statistic, sample)) if len(sample) >= FEWEST else number(statistic(sample))
+    return str(estimate(statistic, sample)) if len(sample) >= FEWEST_RUNS else number(statistic(sample))
