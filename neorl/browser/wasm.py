@@ -93,7 +93,8 @@ EVERY_STEP = loop.act, loop.observe, displacement.observe_self
 # Optimised for speed, but not inlined.
 APART = (contacts.see, contacts.observe_contacts, contacts.evaluate_contacts, displacement.learn_displacement)
 SHIPPED = {name: resources.files(__package__) / f"{name}.wasm" for name in MODULES}  # in a wheel
-OURS = [f"browser.{name}" for name in ("seeding", "wasm", "worlds")]  # modules that take part, besides those of a run
+# Python modules that take part, besides those of a run.
+OURS = [f"browser.{name}" for name in ("probe", "seeding", "wasm", "worlds")]
 BYTES_OF_A_BUILD = 750 * 2**20
 TRIPLE = "wasm32-unknown-unknown"
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"

@@ -21,6 +21,7 @@ from neorl.common import files
 from neorl.core.building import SIZES, WITHOUT_VALUES, laid_out
 from neorl.core.layout import Memory
 from neorl.core.stream import new_stream
+from neorl.experiments.condition import PARTS
 from neorl.kernels.annotations import arrays, new_tuple
 from neorl.kernels.execution import execute
 
@@ -168,3 +169,9 @@ def test_modules_that_cannot_be_kept_are_built_with_a_warning(contents, tmp_path
     monkeypatch.setattr(wasm, "_built", lambda names, at_once: {name: contents[name] for name in names})
     with pytest.warns(RuntimeWarning, match="takes no WebAssembly modules"):
         assert wasm.modules() == contents
+
+
+def test_a_module_is_built_again_if_the_source_of_any_kernel_that_it_exports_changes():
+    sources = {export.__module__ for module in wasm.MODULES.values() for export in module.exports}
+    known = tuple(f"neorl.{name}" for name in (*PARTS, *wasm.OURS))
+    assert all(source.startswith(known) for source in sources)
