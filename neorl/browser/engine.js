@@ -232,12 +232,7 @@ function stepSecond(action) {
 function steer({ actions }) {
   for (const action of actions.slice(0, run.steps - run.step)) {
     if (run.changes[0]?.step === run.step) become(run.changes.shift().parameters);
-    const { world: { kinds }, log: { paid, rewards, hits, bin_steps: steps } } = run;
-    const bin = Math.floor(run.step / Number(steps));
-    const reward = call("step_alone", { board: run.world_state, rules: run.rules.waterworld, action });
-    paid[0] += reward;
-    rewards[bin] += reward;
-    for (const met of run.scene.met) if (met > 0) hits[kinds.length * bin + Number(met) - 1] += 1;
+    call("step_alone", { board: run.world_state, rules: run.rules.waterworld, action });
     run.step += 1;
     leaveTrail();
   }

@@ -1,5 +1,7 @@
 """Kernels for viewers: probe an agent's values anywhere, and let a reader play in WaterWorld, beside it or alone."""
 
+import numpy as np
+
 from neorl.core import loop
 from neorl.core.choices import MapState, Vector
 from neorl.core.functions import AgentFunctions
@@ -8,6 +10,7 @@ from neorl.core.layout import Memory, Record
 from neorl.core.scene import HALF_SECOND, Scene
 from neorl.kernels.annotations import array
 from neorl.kernels.kernel import kernel
+from neorl.worlds.rollout import Log, count_hits
 from neorl.worlds.waterworld import Rules, WaterWorldState, move_agent, reset, step, touch_creeps
 
 
@@ -69,9 +72,13 @@ def step_second(agent: Record, memory: Memory, scene: Scene, functions: AgentFun
 
 
 @kernel
-def step_alone(board: WaterWorldState, rules: Rules, action: int) -> float:
-    """Take an action of a reader who is alone on a board, and return its reward. ``scene.met`` says what was met."""
+def step_alone(board: WaterWorldState, rules: Rules, log: Log, action: int) -> None:
+    """Take an action of a reader who is alone on a board, and write down what comes of it, as `rollout` does."""
+    now = log.clock[0]
+    log.clock[0] = now + 1
     reward, done = step(board, rules, action)
+    log.paid[0] += reward
+    log.rewards[now // log.bin_steps] += np.float32(reward)
+    count_hits(board.scene, log, now)
     if done:
         reset(board, rules)
-    return reward

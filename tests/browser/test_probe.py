@@ -96,10 +96,13 @@ def test_when_somebody_else_takes_the_last_green_creep_the_tank_starts_afresh(re
 
 def test_a_reader_who_is_alone_on_a_board_meets_what_an_agent_would_meet():
     state, other = TANK.reset(6), TANK.reset(6)
+    log, paid, met = Run(multimodal([5]), TANK)._log(500, np.zeros(4, np.float32), np.zeros((4, 2), np.int16)), 0.0, 0
     for action in np.random.default_rng(0).integers(5, size=2_000).tolist():
-        paid = execute(step_alone, state, TANK.rules, action)
+        execute(step_alone, state, TANK.rules, log, action)
         expected, done = execute(TANK.dynamics.step, other, TANK.rules, action)
+        paid, met = paid + expected, met + np.count_nonzero(other.scene.met)
         if done:
             execute(TANK.dynamics.reset, other, TANK.rules)
-        assert paid == expected and np.array_equal(state.scene.met, other.scene.met)
+        assert log.paid[0] == paid and np.array_equal(state.scene.met, other.scene.met)
     assert np.array_equal(state.scene.position, other.scene.position)
+    assert log.clock[0] == 2_000 and log.rewards.sum() == paid and log.hits.sum() == met
